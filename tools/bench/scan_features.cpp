@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <set>
+#include <system_error>
 
 #include "bench/bench.h"
 #include "bench/frames.h"
@@ -72,16 +73,32 @@ Json seen(const ScanFeatures& features, bool female) {
             {"hip_girth_m", number_or_null(m.hip_girth_m)}};
 }
 
-/// Recordings of a person from the front and then from the side: folders with a truth.json, by their names.
+/// Folders with a truth.json, by their names.
+std::set<std::filesystem::path> recordings_in(const std::string& folder) {
+    std::set<std::filesystem::path> out;
+    std::error_code fault;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, fault))
+        if (std::filesystem::exists(entry.path() / "truth.json")) out.insert(entry.path());
+    if (out.empty()) throw Failure(folder + ": holds no recordings with a truth.json");
+    return out;
+}
+
+Json truth_of(const std::filesystem::path& recording) {
+    const std::string path = (recording / "truth.json").string();
+    const Json truth = Json::parse(read_text(path), nullptr, false);
+    const bool complete = truth.is_object() && truth.contains("measures") && truth.contains("sex") &&
+                          (truth["sex"] == "f" || truth["sex"] == "m");
+    if (!complete) throw Failure(path + ": has not \"sex\" (f, m) and \"measures\"");
+    return truth;
+}
+
+/// Recordings of a person from the front and then from the side.
 void run_recordings(const Options& o, std::ostream& out) {
     const auto model = std::make_shared<const FitModel>(*BodyModel::load(library_file("vfit_data/body.bin")));
     const Context context = open_context();
-    std::set<std::filesystem::path> folders;
-    for (const auto& entry : std::filesystem::directory_iterator(o.recordings))
-        if (std::filesystem::exists(entry.path() / "truth.json")) folders.insert(entry.path());
     uint32_t number = 0;
-    for (const std::filesystem::path& folder : folders) {
-        const Json truth = Json::parse(read_text((folder / "truth.json").string()));
+    for (const std::filesystem::path& folder : recordings_in(o.recordings)) {
+        const Json truth = truth_of(folder);
         const Tracker tracker = open_own_tracker(context.get());
         BodyScan scan(model);
         const bool female = truth.at("sex") == "f";

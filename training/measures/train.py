@@ -76,7 +76,7 @@ MISREAD = 3.0  # of a stand-in's deviations; sdk/scan/measure_model.cpp has the 
 # Metres: generated people make a stature likely to 5 mm, which no body of another maker keeps to.
 LEAST_DEVIATION = 0.017
 FEWEST_SEEN = 0.5  # of the scans: a measure that fewer see is learnt whole
-# So is one that taking it as seen makes err so much more on people held out.
+# So is one whose error on people held out is above 1.2 times what it is when it is learnt whole.
 WORTH_OF_SEEING = 1.0 / 1.2
 
 
