@@ -591,14 +591,19 @@ enum {
     VFIT_GUIDANCE_ONE_PERSON_ONLY = 7,
     VFIT_GUIDANCE_NOBODY = 8,
     VFIT_GUIDANCE_JOINTS_MISSING = 9,
-    VFIT_GUIDANCE_FACE_CAMERA = 10
+    VFIT_GUIDANCE_FACE_CAMERA = 10,
+    VFIT_GUIDANCE_TURN_ROUND = 11, /* go on turning: that way has been seen */
+    VFIT_GUIDANCE_TURN_SLOWER = 12
 };
 enum {
-    VFIT_SCAN_BARE = 1, /* bits of flags. Bare feet and no hair on the crown: otherwise the deviation
-                         * of FIT's stature allows for both */
-    VFIT_SCAN_TIGHT = 2
-}; /* of FIT: the clothes lie on the skin, as sportswear does. Otherwise up to 3 cm
-    * of cloth are reckoned with */
+    VFIT_SCAN_BARE = 1,  /* bits of flags. Bare feet and no hair on the crown: otherwise the deviation
+                          * of FIT's stature allows for both */
+    VFIT_SCAN_TIGHT = 2, /* of FIT: the clothes lie on the skin, as sportswear does. Otherwise up to 3 cm of
+                          * cloth are reckoned with */
+    VFIT_SCAN_TURN = 4
+}; /* of FIT: after the other frames the person turns once round on the spot, arms held out: girths of the
+    * trunk from its outline all around are combined with those of the other views */
+#define VFIT_TURN_WAYS 24u
 typedef struct vfit_scan_desc {
     uint32_t struct_size;
     vfit_scan_method method;
@@ -614,6 +619,9 @@ typedef struct vfit_scan_state {
     float correction_m;                             /* mean absolute change of depth by the filter (Fig. 9) */
     float compute_ms;                               /* of the last frame */
     uint32_t side_frames_taken, side_frames_wanted; /* frames_taken: from the front */
+    /* Of a turn, a bit for each of VFIT_TURN_WAYS ways to face: bit i is i times 15 degrees to the person's
+     * left of facing the camera. turn_wanted 0: no turn is asked for. */
+    uint32_t turn_seen, turn_wanted;
 } vfit_scan_state;
 /* key: "stature_m", "chest_girth_m", "body_mass_kg", ... (vfit_measure_key): the unit is in the key;
  * observed 0: inferred from others. sigma is one standard deviation of value; 0: unknown. */
@@ -655,8 +663,17 @@ typedef struct vfit_size_zone {
     float ease, sigma, tight, regular, loose;
     char key[48];
 } vfit_size_zone;
+/* What a shop's own tape says of scans of the same people, by measure. enough 0: too few people, nothing is
+ * changed. */
+typedef struct vfit_calibrated_measure {
+    uint32_t struct_size, people, enough;
+    float offset;   /* of the tape from the scan, in the key's unit */
+    float widening; /* of sigma */
+    char key[48];
+} vfit_calibrated_measure;
 VFIT_STRUCT(vfit_scan_desc)
 VFIT_STRUCT(vfit_scan_state)
+VFIT_STRUCT(vfit_calibrated_measure)
 VFIT_STRUCT(vfit_measurement)
 VFIT_STRUCT(vfit_scale)
 VFIT_STRUCT(vfit_size)
@@ -698,6 +715,25 @@ VFIT_API vfit_result vfit_measurements_read(const void* text, uint64_t byte_coun
 VFIT_API vfit_result vfit_measurements_merge(const vfit_measurement* a, uint32_t a_stride, uint32_t a_count,
                                              const vfit_measurement* b, uint32_t b_stride, uint32_t b_count,
                                              vfit_measurement* items, uint32_t stride, uint32_t* count);
+/* Calibration to a shop's own tape, kept by the app as JSON text that holds errors alone, no bodies
+ * (docs/measuring.md). vfit_calibration_add: of one more person what a scan told, with sigma, and what the
+ * tape told; text null and byte_count 0: the first one. out null sets *capacity to what is needed; too
+ * little: VFIT_ERROR_CAPACITY, and the same. No measure in common: VFIT_ERROR_DATA. [any] */
+VFIT_API vfit_result vfit_calibration_add(const void* text, uint64_t byte_count,
+                                          const vfit_measurement* scanned, uint32_t scanned_stride,
+                                          uint32_t scanned_count, const vfit_measurement* taped,
+                                          uint32_t taped_stride, uint32_t taped_count, char* out,
+                                          uint32_t* capacity);
+VFIT_API vfit_result vfit_calibration_measures(const void* text, uint64_t byte_count,
+                                               vfit_calibrated_measure* items, uint32_t stride,
+                                               uint32_t* count); /* [any] */
+/* Measures of a scan as that tape would tell them: for each measure with at least 20 people the value is
+ * moved by the offset, and sigma is such that at least 90 % of further people lie within 1.645 of it. [any]
+ */
+VFIT_API vfit_result vfit_calibration_apply(const void* text, uint64_t byte_count,
+                                            const vfit_measurement* scanned, uint32_t scanned_stride,
+                                            uint32_t scanned_count, vfit_measurement* items, uint32_t stride,
+                                            uint32_t* count);
 /* Names of the size charts in data_dir/charts, in alphabetical order. [any] */
 VFIT_API vfit_result vfit_size_chart_list(vfit_context context, vfit_data_name* items, uint32_t stride,
                                           uint32_t* count);

@@ -34,6 +34,7 @@ constexpr NamedScript kScripts[] = {{"scan", [](uint64_t) { return scan_script()
                                     {"forward", same<forward_script>},
                                     {"sit", same<sit_script>},
                                     {"spin", same<spin_script>},
+                                    {"round", [](uint64_t) { return round_script(); }},
                                     {"jog", same<jog_script>},
                                     {"visit", same<visit_script>},
                                     {"jump", same<jump_script>},
@@ -101,9 +102,10 @@ bool is_motion(const std::string& name) {
 
 std::unique_ptr<Motion> make_scripted_motion(const std::string& name, const Proportions& proportions,
                                              uint64_t seed, float arms_deg) {
-    if (arms_deg >= 0.0f && (name == "scan" || name == "side"))
-        return std::make_unique<ScriptedMotion>(
-            name == "scan" ? scan_script(arms_deg) : side_script(arms_deg), proportions, seed);
+    if (arms_deg >= 0.0f)
+        for (const auto& [of_arms, make] :
+             {std::pair("scan", &scan_script), {"side", &side_script}, {"round", &round_script}})
+            if (name == of_arms) return std::make_unique<ScriptedMotion>(make(arms_deg), proportions, seed);
     for (const NamedScript& s : kScripts)
         if (name == s.name) return std::make_unique<ScriptedMotion>(s.make(seed), proportions, seed);
     fail(VFIT_ERROR_ARGUMENT, "virtual: unknown motion '", name, "'; known are ", motion_names());

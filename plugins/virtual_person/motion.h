@@ -22,7 +22,7 @@ struct Script {
     float period_s = 1.0f;
 };
 
-inline constexpr float kScanArms_deg = 35.0f, kSideArms_deg = 37.0f;
+inline constexpr float kScanArms_deg = 35.0f, kSideArms_deg = 37.0f, kRoundArms_deg = 42.0f;
 Script scan_script(float arms_deg = kScanArms_deg);
 Script side_script(float arms_deg = kSideArms_deg);
 Script sway_script();
@@ -37,6 +37,7 @@ Script clap_script();
 Script forward_script();
 Script sit_script();
 Script spin_script();
+Script round_script(float arms_deg = kRoundArms_deg);
 Script jog_script();
 Script visit_script();
 Script jump_script();

@@ -33,7 +33,8 @@ constexpr Entry kEntries[] = {
     {"motion", Kind::kMotion, "scan", 0, 0,
      "What the person does: scan, walk, sit, ...; a wrong name is answered by the list"},
     {"arms", Kind::kNumber, "-1", -1, 80,
-     "Upper arms from hanging, in degrees, of motion scan (outwards) and side (forwards); below 0: as the "
+     "Upper arms from hanging, in degrees, of motion scan and round (outwards) and side (forwards); below 0: "
+     "as the "
      "motion has them"},
     {"bvh", Kind::kFile, "", 0, 0, "Motion capture file to play instead of motion (CMU joint names)"},
     {"seed", Kind::kWhole, "1", 0, kMostWhole, "Of noise, sway and breath; equal seeds give equal bits"},

@@ -40,7 +40,7 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
         for (const auto& [name, count] :
              {std::pair("frame_count", d.frame_count), {"side_frame_count", d.side_frame_count}})
             if (count > kMaxFrames) fail(VFIT_ERROR_ARGUMENT, name, " ", count, " is more than ", kMaxFrames);
-        if (d.flags & ~uint32_t{VFIT_SCAN_BARE | VFIT_SCAN_TIGHT})
+        if (d.flags & ~uint32_t{VFIT_SCAN_BARE | VFIT_SCAN_TIGHT | VFIT_SCAN_TURN})
             fail(VFIT_ERROR_ARGUMENT, "flags ", d.flags, ": unknown bits");
         PersonScanDesc settings;
         if (d.method == VFIT_SCAN_PROPORTIONS_AS_PRINTED) settings.paper = ScanDesc::as_printed();
@@ -52,6 +52,7 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
             settings.side_frame_count = d.side_frame_count;
             settings.bare = (d.flags & VFIT_SCAN_BARE) != 0;
             settings.tight = (d.flags & VFIT_SCAN_TIGHT) != 0;
+            settings.turn = (d.flags & VFIT_SCAN_TURN) != 0;
         }
         prepare_avatar(*context, d.sex);
         out->id = context->publish(Kind::scan, make<ScanObject>(context.ref(), settings));
@@ -99,6 +100,8 @@ vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id
         out.frames_taken = scan->scan.frames_taken();
         out.side_frames_wanted = scan->scan.side_frames_wanted();
         out.side_frames_taken = scan->scan.side_frames_taken();
+        out.turn_wanted = scan->scan.turn_wanted();
+        out.turn_seen = scan->scan.turn_seen();
         vfit_result result = VFIT_OK;
         if (!scan->scan.complete()) {
             Profile::Scope time(scan->context->profile, Stage::measure);
@@ -117,6 +120,7 @@ vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id
             const ScanProgress progress = scan->scan.add(in);
             out.frames_taken = progress.frames_taken;
             out.side_frames_taken = scan->scan.side_frames_taken();
+            out.turn_seen = scan->scan.turn_seen();
             out.guidance = progress.guidance;
             out.correction_m = progress.correction_m;
             out.compute_ms = static_cast<float>(progress.compute_ms);

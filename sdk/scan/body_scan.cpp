@@ -24,32 +24,58 @@ void BodyScan::reset() {
     fit_.reset();
     residuals_.reset();
     profile_.reset();
+    turn_.reset();
     outline_loss_.reset();
     wipe(sums_);
 }
 
-ViewKind BodyScan::add(const DepthImage& image, const Body& body) {
+bool BodyScan::run_fit(const DepthImage& image, const Body& body) {
     BodyFitInput input;
     input.image = image;
     input.user = uint8_t(body.id);
     input.time_ns = body.time_ns;
     for (int j = 0; j < kJointCount; ++j)
         if (body.has(j)) input.joints[size_t(j)] = {body.at(j), body.joints[size_t(j)].confidence};
-    const BodyFitOutput& fit = fit_.run(input);
-    if (fit.state != BodyFitState::kGood) return ViewKind::kOther;
+    return fit_.run(input).state == BodyFitState::kGood;
+}
+
+std::optional<float> BodyScan::fit_turning(const DepthImage& image, const Body& body) {
+    if (!run_fit(image, body)) return std::nullopt;
+    const Vec3 ahead = fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
+    return std::atan2(ahead.x, -ahead.z);
+}
+
+float BodyScan::outline_loss_m() const {
+    return sums_.frames ? outline_loss_px() * float(sums_.pixel_m / sums_.frames) : 0.0f;
+}
+
+std::array<float, size_t(TurnBreadths::kLevels)> BodyScan::turned_girths_m() const {
+    // Below the hip joints two legs apart make the outline.
+    constexpr float kLowest = -0.08f;  // of the way from the hip joints to the neck
+    std::array<float, size_t(TurnBreadths::kLevels)> out;
+    for (int level = 0; level < TurnBreadths::kLevels; ++level)
+        out[size_t(level)] = TrunkProfile::along(level) < kLowest
+                                 ? std::nanf("")
+                                 : turn_.girth_m(level) + 2.0f * kPi * outline_loss_m();
+    return out;
+}
+
+ViewKind BodyScan::add(const DepthImage& image, const Body& body) {
+    if (!run_fit(image, body)) return ViewKind::kOther;
+    const auto user = uint8_t(body.id);
     const Vec3 ahead = fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
     const ViewKind view = view_kind_of(ahead);
     if (view == ViewKind::kOther) return view;
-    residuals_.add(image, input.user, fit_);
-    profile_.add(image, input.user, fit_, view);
-    outline_loss_.add(image, input.user);
+    residuals_.add(image, user, fit_);
+    profile_.add(image, user, fit_, view);
+    outline_loss_.add(image, user);
     ++sums_.frames;
-    sums_.distance_m += double(fit.pose.hips.z);
+    sums_.distance_m += double(fit().pose.hips.z);
     const double turned = double(turned_rad(ahead)) - (view == ViewKind::kSide ? 0.5 * double(kPi) : 0.0);
     sums_.turned_rad[size_t(view)] += turned;
     sums_.turned_squared[size_t(view)] += turned * turned;
-    sums_.pixel_m += double(fit.pose.hips.z / std::sqrt(image.camera.fx * image.camera.fy));
-    if (const float crown = crown_height(image, input.user); crown > 0.0f) {
+    sums_.pixel_m += double(fit().pose.hips.z / std::sqrt(image.camera.fx * image.camera.fy));
+    if (const float crown = crown_height(image, user); crown > 0.0f) {
         sums_.crown_m += double(crown);
         ++sums_.crowns;
     }
@@ -114,7 +140,7 @@ ScanFeatures BodyScan::features(bool side) const {
     out[n++] = mean_of(sums_.turned_squared, ViewKind::kSide);
     constexpr ViewKind kViews[] = {ViewKind::kFront, ViewKind::kSide};
     // Outlines lie as much farther out as the sensor loses of them.
-    const float lost = outline_loss_px() * out[kPixelFeature] / kMillimetres;
+    const float lost = outline_loss_m();
     for (const ViewKind view : kViews)
         for (const Seen seen : {Seen::kFacing, Seen::kRim})
             for (const float mean : residuals_.means_m(view, seen, shape()))

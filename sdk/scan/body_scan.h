@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fit/body_fit.h"
@@ -11,6 +12,7 @@
 #include "scan/outline_loss.h"
 #include "scan/surface_residuals.h"
 #include "scan/trunk_profile.h"
+#include "scan/turn_breadths.h"
 
 namespace vfit {
 
@@ -43,6 +45,11 @@ public:
     /// kept where the fit is good and the person is seen from the front or the side: then that view is
     /// returned. Does not allocate after the first frame of a size.
     ViewKind add(const DepthImage& image, const Body& body);
+    /// Fits the body of a person who turns round on the spot. Radians that they are turned by to their left;
+    /// nothing where the fit is not good.
+    std::optional<float> fit_turning(const DepthImage& image, const Body& body);
+    /// Keeps the frame that was fitted last, for the trunk's breadths alone.
+    void keep_turning(const DepthImage& image, const Body& body) { turn_.add(image, uint8_t(body.id), fit_); }
     /// Forgets the person.
     void reset();
 
@@ -50,6 +57,8 @@ public:
     /// VFIT_ERROR_STATE before the first frame that was kept. Without `side` as if nothing had been seen from
     /// there: estimators for the front alone have not learnt what it means.
     ScanFeatures features(bool side) const;
+    /// Girths of the trunk by its levels, metres, from its outline all around; NaN: not seen.
+    std::array<float, size_t(TurnBreadths::kLevels)> turned_girths_m() const;
     /// The shape of all frames together.
     const FitShape& shape() const { return fit_.output().pose.shape; }
     const BodyFitOutput& fit() const { return fit_.output(); }
@@ -57,6 +66,10 @@ public:
     float outline_loss_px() const { return outline_loss_.pixels(); }
 
 private:
+    /// False where the body does not fit.
+    bool run_fit(const DepthImage& image, const Body& body);
+    /// What the sensor loses of an outline, metres at the person.
+    float outline_loss_m() const;
     /// Of the highest point over the floor; 0 where the head is cut or nothing of it is seen.
     float crown_height(const DepthImage& image, uint8_t user) const;
 
@@ -64,6 +77,7 @@ private:
     BodyFit fit_;
     SurfaceResiduals residuals_;
     TrunkProfile profile_;
+    TurnBreadths turn_;
     OutlineLoss outline_loss_;
     struct Sums {
         double crown_m = 0.0, distance_m = 0.0, pixel_m = 0.0;

@@ -14,7 +14,7 @@ namespace vfit {
 
 namespace {
 
-constexpr int kVersion = 5;
+constexpr int kVersion = 6;
 constexpr float kFarthest = 5.0f;  // deviations: what lies farther tells no more
 // What of the body itself lies farther out than nearly all grown-ups' do, a child's crown say, is guessed at:
 // linear rules do not reach there.
@@ -167,6 +167,20 @@ MeasureModel MeasureModel::parse(std::string_view text) {
                       [](const Row& a, const Row& b) { return measure_index(a.key) < measure_index(b.key); });
         }
     }
+    const Json& turn = field(file, "turn", "the file");
+    for (const auto& [clothes, of_clothes] :
+         {std::pair("any", &model.turned_[0]), {"tight", &model.turned_[1]}})
+        for (const auto& [sex, girths] :
+             {std::pair("male", &(*of_clothes)[0]), {"female", &(*of_clothes)[1]}})
+            for (const auto& [key, girth] : {std::pair("chest_girth_m", &girths->chest),
+                                             {"waist_girth_m", &girths->waist},
+                                             {"hip_girth_m", &girths->hip}}) {
+                const std::string what = std::string("turn, ") + clothes + ", " + sex + ", " + key;
+                const Json& one = field(field(field(turn, clothes, what), sex, what), key, what);
+                *girth = {number(field(one, "offset", what), what), number(field(one, "sigma", what), what)};
+                if (!(girth->sigma_m > 0.0f))
+                    fail(VFIT_ERROR_DATA, "measure model: ", what, ": sigma is not above 0");
+            }
     return model;
 }
 
@@ -187,8 +201,9 @@ ScanFeatures MeasureModel::Part::standardised(const ScanFeatures& features) cons
 
 MeasureModel::Seen MeasureModel::Part::look(const ScanFeatures& features) const {
     const ScanFeatures x = standardised(features);
-    return {seen_measures(features, false), seen_measures(features, true), x, basis.nearness(x),
-            doubt(features, x)};
+    const SectionGirths girths = section_girths(features);
+    return {seen_measures(features[kCrownFeature], girths, false),
+            seen_measures(features[kCrownFeature], girths, true), x, basis.nearness(x), doubt(features, x)};
 }
 
 float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures& x) const {

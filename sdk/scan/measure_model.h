@@ -15,6 +15,7 @@
 #include "scan/body_scan.h"
 #include "scan/radial_basis.h"
 #include "scan/seen_measures.h"
+#include "scan/turned_measures.h"
 
 namespace vfit {
 
@@ -36,6 +37,8 @@ public:
     std::vector<Measurement> measure(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const;
     /// How likely it is a woman whom the features are of.
     float female_probability(const ScanFeatures& features, ScanKind kind) const;
+    /// What girths of a turn are off by.
+    const TurnedGirths& turned(bool tight, bool female) const { return turned_[tight][female]; }
 
 private:
     /// base + weights . x, of standardised features x.
@@ -92,6 +95,7 @@ private:
     const Part& part(ScanKind kind) const { return parts_[(kind.side ? 1u : 0u) + (kind.tight ? 2u : 0u)]; }
 
     std::array<Part, 4> parts_;
+    std::array<std::array<TurnedGirths, 2>, 2> turned_{};  // any clothes, tight ones; men, women
 };
 
 }  // namespace vfit

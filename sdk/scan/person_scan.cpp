@@ -1,9 +1,11 @@
 #include "scan/person_scan.h"
 
+#include <bit>
 #include <cmath>
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/wipe.h"
 
 namespace vfit {
 
@@ -14,6 +16,9 @@ constexpr float kHairAndShoes_m = 0.015f;
 constexpr float kJointsSlack_rad = 0.1f;  // joints tell less well than the fitted body how somebody stands
 // From a hand to the hip joint of its side, across: nearer, and the arm hides the trunk's outline.
 constexpr float kArmsOut_m = 0.14f;
+constexpr float kFastestTurn = 2.6f;   // radians a second; at a pace of 8 s a turn small steps reach 1.6
+constexpr uint32_t kFramesOfWay = 15;  // of a turn: the person stands still
+constexpr int kFewestWays = TurnRing::kWays / 2;  // outlines from behind are those from the front
 
 /// By the joints, before the body is fitted.
 ViewKind view_of(const Body& body) {
@@ -43,6 +48,10 @@ void PersonScan::reset() {
     paper_.reset();
     if (body_) body_->reset();
     side_frames_ = more_side_frames_ = 0;
+    ring_.reset();
+    if (before_turn_) wipe(*before_turn_);
+    before_turn_.reset();
+    turned_rad_ = 0.0f, turned_ns_ = 0;
 }
 
 void PersonScan::extend(uint32_t frames, uint32_t side_frames) {
@@ -64,7 +73,25 @@ ScanProgress PersonScan::add(const ScanFrame& frame) {
     return progress;
 }
 
+vfit_guidance PersonScan::turn(const ScanFrame& frame) {
+    if (!arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
+    if (!before_turn_) before_turn_ = body_->features(with_side());
+    const auto turned = body_->fit_turning(frame.image, *frame.body);
+    if (!turned) return VFIT_GUIDANCE_HOLD_STILL;
+    const float step = std::remainder(*turned - turned_rad_, 2.0f * kPi);
+    const float seconds = float(double(frame.body->time_ns - turned_ns_) * 1e-9);
+    const bool fast = turned_ns_ != 0 && seconds > 0.0f && std::abs(step) > kFastestTurn * seconds;
+    turned_rad_ = *turned, turned_ns_ = frame.body->time_ns;
+    if (fast) return VFIT_GUIDANCE_TURN_SLOWER;
+    const int way = TurnRing::way_of(*turned);
+    if (ring_.frames(way) >= kFramesOfWay) return VFIT_GUIDANCE_TURN_ROUND;
+    body_->keep_turning(frame.image, *frame.body);
+    ring_.add(way);
+    return VFIT_GUIDANCE_NONE;
+}
+
 vfit_guidance PersonScan::fit(const ScanFrame& frame) {
+    if (desc_.turn && paper_.complete() && side_frames_ >= side_frames_wanted()) return turn(frame);
     const ViewKind seen = view_of(*frame.body);
     const bool front = seen == ViewKind::kFront, side = seen == ViewKind::kSide;
     if (paper_.complete() ? !side : !front && !side)
@@ -79,11 +106,12 @@ vfit_guidance PersonScan::fit(const ScanFrame& frame) {
     return VFIT_GUIDANCE_NONE;
 }
 
+bool PersonScan::with_turn() const { return std::popcount(turn_seen()) >= kFewestWays; }
+
 InferredSex PersonScan::inferred_sex() const {
     if (desc_.paper.sex != VFIT_SEX_UNKNOWN) return {desc_.paper.sex, 1.0f};
     if (!fitted_shape()) return {};
-    const float female =
-        desc_.measure_model->female_probability(body_->features(with_side()), {with_side(), desc_.tight});
+    const float female = desc_.measure_model->female_probability(features(), {with_side(), desc_.tight});
     if (female > 0.5f) return {VFIT_SEX_FEMALE, female};
     return {VFIT_SEX_MALE, 1.0f - female};
 }
@@ -91,9 +119,13 @@ InferredSex PersonScan::inferred_sex() const {
 std::vector<Measurement> PersonScan::measurements() const {
     if (!body_) return paper_.measurements();
     if (frames_taken() == 0) fail(VFIT_ERROR_STATE, "scan: no frame from the front has been taken yet");
-    const bool side = with_side();
     std::vector<Measurement> out =
-        desc_.measure_model->measure(body_->features(side), {side, desc_.tight}, desc_.paper.sex);
+        desc_.measure_model->measure(features(), {with_side(), desc_.tight}, desc_.paper.sex);
+    if (with_turn()) {
+        const bool female = likely_sex() == VFIT_SEX_FEMALE;
+        combine_with_turn(out, seen_measures(std::nanf(""), body_->turned_girths_m(), female),
+                          desc_.measure_model->turned(desc_.tight, female));
+    }
     if (!desc_.bare)
         for (Measurement& m : out)
             if (m.key == "stature_m") m.sigma = std::hypot(m.sigma, kHairAndShoes_m);

@@ -2,9 +2,12 @@
 // for what.
 #pragma once
 
+#include <optional>
+
 #include "measure/paper_scan.h"
 #include "scan/body_scan.h"
 #include "scan/measure_model.h"
+#include "scan/turn_ring.h"
 
 namespace vfit {
 
@@ -16,6 +19,7 @@ struct PersonScanDesc {
     uint32_t side_frame_count = 0;
     bool bare = false;   // no shoes and no hair: stature needs no allowance
     bool tight = false;  // clothes lie on the skin
+    bool turn = false;   // of the fitted body, after the other frames: once round on the spot
 };
 
 struct InferredSex {
@@ -27,6 +31,10 @@ class PersonScan {
 public:
     /// Errors as those of PaperScan.
     explicit PersonScan(const PersonScanDesc& desc);
+    /// Overwrites all body data.
+    ~PersonScan() { reset(); }
+    PersonScan(const PersonScan&) = delete;
+    PersonScan& operator=(const PersonScan&) = delete;
 
     /// Ignores frames once the scan is complete.
     ScanProgress add(const ScanFrame& frame);
@@ -40,7 +48,12 @@ public:
     uint32_t frames_wanted() const { return paper_.frames_wanted(); }
     uint32_t side_frames_taken() const { return side_frames_; }
     uint32_t side_frames_wanted() const { return body_ ? desc_.side_frame_count + more_side_frames_ : 0; }
-    bool complete() const { return paper_.complete() && side_frames_ >= side_frames_wanted(); }
+    /// Ways that the person has been seen to face in the turn, and those that are wanted: a bit each.
+    uint32_t turn_seen() const { return ring_.seen(); }
+    uint32_t turn_wanted() const { return body_ && desc_.turn ? TurnRing::kAll : 0; }
+    bool complete() const {
+        return paper_.complete() && side_frames_ >= side_frames_wanted() && turn_seen() == turn_wanted();
+    }
 
     /// No frame from the front yet: VFIT_ERROR_STATE.
     std::vector<Measurement> measurements() const;
@@ -55,13 +68,22 @@ public:
 private:
     static constexpr uint32_t kFewestSideFrames = 5;  // fewer are not worth the other estimator
     bool with_side() const { return side_frames_ >= kFewestSideFrames; }
+    bool with_turn() const;
+    ScanFeatures features() const { return before_turn_ ? *before_turn_ : body_->features(with_side()); }
     /// What is wrong with the frame for the body fit; it is kept where nothing is.
     vfit_guidance fit(const ScanFrame& frame);
+    vfit_guidance turn(const ScanFrame& frame);
 
     PersonScanDesc desc_;
     PaperScan paper_;
     std::unique_ptr<BodyScan> body_;
     uint32_t side_frames_ = 0, more_side_frames_ = 0;
+    TurnRing ring_;
+    // Of the views before the turn: the body goes on being fitted to all of it, and measures have not learnt
+    // what that does to its shape.
+    std::optional<ScanFeatures> before_turn_;
+    float turned_rad_ = 0.0f;  // in the last frame of the turn
+    int64_t turned_ns_ = 0;    // 0: none yet
 };
 
 }  // namespace vfit

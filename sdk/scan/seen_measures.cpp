@@ -1,112 +1,37 @@
 #include "scan/seen_measures.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
-#include "measure/section.h"
 #include "measure/tape_landmarks.h"
 
 namespace vfit {
 
 namespace {
 
-// Of the way from the hip joints to the neck's joint: the tape looks for the hip between the crotch and
-// halfway up to the waist.
-constexpr float kHipLowest = -0.12f, kHipHighest = 0.17f;
-constexpr int kWindow = 4;  // levels to either side from which the front's place is taken
-constexpr float kQuarters[] = {0.0f, 0.25f, 0.5f, 0.75f};
-constexpr float kMetres = 0.01f;  // of the features' centimetres
-
-float median(std::vector<float>& values) {
-    if (values.empty()) return std::nanf("");
-    std::sort(values.begin(), values.end());
-    const size_t n = values.size();
-    return 0.5f * (values[(n - 1) / 2] + values[n / 2]);
-}
-
-/// The trunk's section at a level: half of it, as a person is nearly the same on both sides.
-class SectionSeen {
-public:
-    explicit SectionSeen(const ScanFeatures& features) : features_(features) {}
-
-    /// Of the section's convex hull, centimetres; NaN where an outline is not seen.
-    float girth(int level) const {
-        const float breadth = front(level, TrunkProfile::kAhead), behind = side(level, TrunkProfile::kBehind),
-                    ahead = front(level, TrunkProfile::kTowards) + front_place(level);
-        if (!(breadth > 0.0f && behind > 0.0f && ahead > 0.0f)) return std::nanf("");
-        const Falls face = falls(level, &SectionSeen::front, TrunkProfile::kAhead, ahead);
-        Falls flank = falls(level, &SectionSeen::side, TrunkProfile::kAhead, breadth),
-              rear_flank = falls(level, &SectionSeen::side, TrunkProfile::kBehind, breadth);
-        const float nearest = *std::min_element(face.begin(), face.end());
-        const float widest = std::min(*std::min_element(flank.begin(), flank.end()),
-                                      *std::min_element(rear_flank.begin(), rear_flank.end()));
-        std::vector<Vec2> outline = {{0.0f, -behind}};
-        for (size_t q = 0; q < std::size(kQuarters); ++q) {
-            const float share = kQuarters[q], round = std::sqrt(1.0f - share * share);
-            const auto inside = [](float fall, float least, float reach) {
-                return reach - std::clamp(fall - least, 0.0f, reach);
-            };
-            outline.emplace_back(share * breadth, inside(face[q], nearest, ahead));
-            outline.emplace_back(inside(flank[q], widest, breadth), share * ahead);
-            outline.emplace_back(inside(rear_flank[q], widest, breadth), -share * behind);
-            // No view shows the middle of the back.
-            outline.emplace_back(share * breadth, -round * behind);
-        }
-        for (size_t i = outline.size(); i-- > 0;) outline.emplace_back(-outline[i].x, outline[i].y);
-        return hull_perimeter(outline);
-    }
-
-private:
-    using Falls = std::array<float, std::size(kQuarters)>;
-
-    float front(int level, size_t reach) const {
-        return features_[kFrontReaches + size_t(level) * TrunkProfile::kReachesFromFront + reach];
-    }
-    float side(int level, size_t reach) const {
-        return features_[kSideReaches + size_t(level) * TrunkProfile::kReaches + reach];
-    }
-    /// How much farther ahead the outline from the side is than the surface from the front, which is
-    /// placed by the fitted body alone. Arms before the trunk hide the outline at some levels.
-    float front_place(int level) const {
-        std::vector<float> apart;
-        for (int l = std::max(0, level - kWindow); l <= std::min(TrunkProfile::kLevels - 1, level + kWindow);
-             ++l) {
-            const float one = side(l, TrunkProfile::kAhead) - front(l, TrunkProfile::kTowards);
-            if (!std::isnan(one)) apart.push_back(one);
-        }
-        return median(apart);
-    }
-    /// How far the surface falls back from its middle on the way to the outline; as an ellipse's does where
-    /// that is not seen.
-    Falls falls(int level, float (SectionSeen::*reach)(int, size_t) const, size_t outline,
-                float depth) const {
-        const float middle = (this->*reach)(level, TrunkProfile::kTowards);
-        Falls out{};
-        for (size_t q = 1; q < out.size(); ++q) {
-            out[q] = middle - (this->*reach)(level, outline + q);
-            if (std::isnan(out[q])) out[q] = depth * (1.0f - std::sqrt(1.0f - kQuarters[q] * kQuarters[q]));
-        }
-        return out;
-    }
-
-    const ScanFeatures& features_;
+/// Of the way from the hip joints to the neck's joint. The tape looks for the hip between the crotch and
+/// halfway up to the waist, for the chest between the rib arch and the armpits.
+struct Range {
+    float low, high;
 };
+constexpr Range kHip{-0.12f, 0.17f}, kChest{0.45f, 0.66f};
 
 }  // namespace
 
-SeenMeasures seen_measures(const ScanFeatures& features, bool female) {
-    const SectionSeen section(features);
-    SeenMeasures out{features[kCrownFeature], std::nanf(""), std::nanf("")};
+SeenMeasures seen_measures(float crown_m, const SectionGirths& girths, bool female) {
+    const auto largest = [&](const Range& range) {
+        float out = std::nanf("");
+        for (int l = 0; l < TrunkProfile::kLevels; ++l)
+            if (range.low < TrunkProfile::along(l) && TrunkProfile::along(l) < range.high)
+                out = std::fmax(out, girths[size_t(l)]);
+        return out;
+    };
     const float waist = waist_share(female ? VFIT_SEX_FEMALE : VFIT_SEX_MALE);
+    SeenMeasures out{crown_m, largest(kChest), std::nanf(""), largest(kHip)};
     for (int l = 0; l + 1 < TrunkProfile::kLevels; ++l) {
         const float low = TrunkProfile::along(l), high = TrunkProfile::along(l + 1);
         if (low <= waist && waist < high)
             out.waist_girth_m =
-                kMetres * std::lerp(section.girth(l), section.girth(l + 1), (waist - low) / (high - low));
-        if (low > kHipLowest && low < kHipHighest)
-            out.hip_girth_m = std::fmax(out.hip_girth_m, kMetres * section.girth(l));
+                std::lerp(girths[size_t(l)], girths[size_t(l) + 1], (waist - low) / (high - low));
     }
     return out;
 }

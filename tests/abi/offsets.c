@@ -194,7 +194,9 @@ OFFSET(vfit_scan_state, correction_m, 16);
 OFFSET(vfit_scan_state, compute_ms, 20);
 OFFSET(vfit_scan_state, side_frames_taken, 24);
 OFFSET(vfit_scan_state, side_frames_wanted, 28);
-SIZE(vfit_scan_state, 32);
+OFFSET(vfit_scan_state, turn_seen, 32);
+OFFSET(vfit_scan_state, turn_wanted, 36);
+SIZE(vfit_scan_state, 40);
 
 OFFSET(vfit_measurement, struct_size, 0);
 OFFSET(vfit_measurement, observed, 4);
@@ -242,6 +244,14 @@ OFFSET(vfit_size_zone, regular, 16);
 OFFSET(vfit_size_zone, loose, 20);
 OFFSET(vfit_size_zone, key, 24);
 SIZE(vfit_size_zone, 72);
+
+OFFSET(vfit_calibrated_measure, struct_size, 0);
+OFFSET(vfit_calibrated_measure, people, 4);
+OFFSET(vfit_calibrated_measure, enough, 8);
+OFFSET(vfit_calibrated_measure, offset, 12);
+OFFSET(vfit_calibrated_measure, widening, 16);
+OFFSET(vfit_calibrated_measure, key, 20);
+SIZE(vfit_calibrated_measure, 68);
 
 OFFSET(vfit_bone, struct_size, 0);
 OFFSET(vfit_bone, bone, 4);

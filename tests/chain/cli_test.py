@@ -365,6 +365,27 @@ class Contract(unittest.TestCase):
                 "centimetres",
             )
 
+    def test_scans_are_calibrated_to_a_tape(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            scan, tape, shop = path / "scan.json", path / "tape.json", path / "shop.json"
+            told = document(self, "measure", VIRTUAL, "--profile", scan, "--json")["measurements"]
+            waist = told["waist_girth_m"]["value"]
+            for i in range(20):
+                tape.write_text(json.dumps({"waist_girth_m": waist + 0.03 + 0.001 * (i % 3)}))
+                state = document(self, "calibrate", shop, "--scan", scan, "--tape", tape, "--json")
+            self.assertEqual(set(state), {"waist_girth_m"})
+            self.assertEqual((state["waist_girth_m"]["people"], state["waist_girth_m"]["enough"]), (20, True))
+            self.assertAlmostEqual(state["waist_girth_m"]["offset"], 0.031, places=4)
+            self.assertIn("20 people", run("calibrate", shop).stdout)
+            again = document(self, "measure", VIRTUAL, "--calibration", shop, "--json")["measurements"]
+            self.assertAlmostEqual(again["waist_girth_m"]["value"], waist + 0.031, places=3)
+            self.assertLess(again["waist_girth_m"]["sigma"], told["waist_girth_m"]["sigma"])
+            self.assertEqual(again["stature_m"], told["stature_m"])
+            self.check_failure(run("calibrate", path / "gone.json"), "gone.json")
+            self.check_failure(run("calibrate", shop, "--scan", scan), "--tape")
+            self.check_failure(run("measure", VIRTUAL, "--calibration", scan), "calibration", "format")
+
     def test_a_profile_is_kept_and_merged(self):
         with tempfile.TemporaryDirectory() as folder:
             first, both = pathlib.Path(folder) / "first.json", pathlib.Path(folder) / "both.json"

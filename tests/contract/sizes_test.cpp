@@ -66,6 +66,56 @@ TEST_F(SizesTest, MeasurementsComeBackFromTheirText) {
               VFIT_ERROR_ARGUMENT);
 }
 
+TEST_F(SizesTest, ScansAreCalibratedToATape) {
+    std::string text;
+    const auto add = [&](const vfit_measurement& scan, const vfit_measurement& tape) {
+        uint32_t capacity = 0;
+        const void* before = text.empty() ? nullptr : text.data();
+        const vfit_result result = vfit_calibration_add(before, text.size(), &scan, sizeof scan, 1, &tape,
+                                                        sizeof tape, 1, nullptr, &capacity);
+        if (result != VFIT_OK) return result;
+        std::string out(capacity, 0);
+        uint32_t short_by_one = capacity - 1;
+        EXPECT_EQ(vfit_calibration_add(before, text.size(), &scan, sizeof scan, 1, &tape, sizeof tape, 1,
+                                       out.data(), &short_by_one),
+                  VFIT_ERROR_CAPACITY);
+        EXPECT_EQ(vfit_calibration_add(before, text.size(), &scan, sizeof scan, 1, &tape, sizeof tape, 1,
+                                       out.data(), &capacity),
+                  VFIT_OK);
+        out.resize(capacity - 1);
+        text = out;
+        return result;
+    };
+    const vfit_measurement scan = measurement("waist_girth_m", 0.8f, 0.01f);
+    for (int i = 0; i < 20; ++i)
+        ASSERT_EQ(add(scan, measurement("waist_girth_m", 0.82f, 0.0f)), VFIT_OK) << contract::last_error();
+    vfit_calibrated_measure told = vfit_calibrated_measure_init();
+    uint32_t count = 1;
+    ASSERT_EQ(vfit_calibration_measures(text.data(), text.size(), &told, sizeof told, &count), VFIT_OK);
+    EXPECT_STREQ(told.key, "waist_girth_m");
+    EXPECT_EQ(told.people, 20u);
+    EXPECT_EQ(told.enough, 1u);
+    EXPECT_NEAR(told.offset, 0.02f, 1e-5f);
+    vfit_measurement out = vfit_measurement_init();
+    ASSERT_EQ(
+        vfit_calibration_apply(text.data(), text.size(), &scan, sizeof scan, 1, &out, sizeof out, &count),
+        VFIT_OK);
+    EXPECT_NEAR(out.value, 0.82f, 1e-5f);
+    EXPECT_EQ(add(scan, measurement("hip_girth_m", 1.0f, 0.0f)), VFIT_ERROR_DATA);
+    EXPECT_NE(contract::last_error().find("in common"), std::string::npos);
+    EXPECT_EQ(vfit_calibration_measures("{}", 2, &told, sizeof told, &count), VFIT_ERROR_DATA);
+    EXPECT_EQ(vfit_calibration_measures(nullptr, 0, &told, sizeof told, &count), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_calibration_measures(text.data(), UINT64_MAX, &told, sizeof told, &count),
+              VFIT_ERROR_ARGUMENT);
+    uint32_t capacity = 0;
+    EXPECT_EQ(
+        vfit_calibration_add(nullptr, 5, &scan, sizeof scan, 1, &scan, sizeof scan, 1, nullptr, &capacity),
+        VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(
+        vfit_calibration_add(nullptr, 0, &scan, sizeof scan, 1, &scan, sizeof scan, 1, nullptr, nullptr),
+        VFIT_ERROR_ARGUMENT);
+}
+
 TEST_F(SizesTest, TwoScansOfOnePersonAreMerged) {
     const vfit_measurement again[] = {measurement("stature_m", 1.71f, 0.01f),
                                       measurement("hip_girth_m", 1.0f, 0.02f)};

@@ -112,8 +112,8 @@ TEST_P(EveryMotion, NoJointJumps) {
 
 INSTANTIATE_TEST_SUITE_P(Scripts, EveryMotion,
                          ::testing::Values("scan", "side", "sway", "turn", "walk", "wave", "reach", "squat",
-                                           "demo", "cross", "clap", "forward", "sit", "spin", "jog", "visit",
-                                           "jump", "step", "balance", "stride", "shuffle"),
+                                           "demo", "cross", "clap", "forward", "sit", "spin", "round", "jog",
+                                           "visit", "jump", "step", "balance", "stride", "shuffle"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(JumpMotion, FliesAsHighAndAsLongAsABodyDoesAndLandsWhereItStood) {

@@ -72,14 +72,15 @@ void judge_size(vfit_context context, const PersonOfPopulation& person,
 /// One person before the camera, scanned in several ways at once.
 class ScanOfPerson {
 public:
-    ScanOfPerson(const ScanScene& scene, vfit_sex sex)
-        : scene_(scene), context_(open_context()), tracker_(open_own_tracker(context_.get())) {
+    ScanOfPerson(const ScanScene& scene, vfit_sex sex, bool turn = false)
+        : scene_(scene), turn_(turn), context_(open_context()), tracker_(open_own_tracker(context_.get())) {
         vfit_scan_desc desc = vfit_scan_desc_init();
         desc.frame_count = scene.front_frames, desc.side_frame_count = scene.side_frames;
         desc.sex = sex;
         desc.method = VFIT_SCAN_PROPORTIONS;
         check(vfit_scan_create(context_.get(), &desc, paper_.out()));
         desc.method = VFIT_SCAN_FIT, desc.flags = VFIT_SCAN_BARE;
+        if (turn) desc.side_frame_count = 0, desc.flags |= VFIT_SCAN_TURN;
         check(vfit_scan_create(context_.get(), &desc, fit_.out()));
         desc.flags |= VFIT_SCAN_TIGHT;
         check(vfit_scan_create(context_.get(), &desc, told_.out()));
@@ -89,6 +90,15 @@ public:
         play(scene_.front_uri(person), true);
         if (state_.frames_taken >= scene_.front_frames / 2) return true;
         std::cerr << "no scan: " << guidance_text(state_.guidance) << ": " << scene_.front_uri(person)
+                  << "\n";
+        return false;
+    }
+    /// The side, or the turn; likewise.
+    bool all_round(const PersonOfPopulation& person) {
+        if (!turn_) return side(person);
+        play(scene_.turn_uri(person), false);
+        if (state_.turn_seen == state_.turn_wanted) return true;
+        std::cerr << "no whole turn: " << guidance_text(state_.guidance) << ": " << scene_.turn_uri(person)
                   << "\n";
         return false;
     }
@@ -121,6 +131,7 @@ private:
     }
 
     const ScanScene& scene_;
+    bool turn_;
     Context context_;
     Tracker tracker_;
     Scan fit_, told_, paper_;
@@ -141,7 +152,7 @@ std::vector<std::string> groups_of(const PersonOfPopulation& person, const ScanS
 }
 
 void scan(const PersonOfPopulation& person, const ScanScene& scene, bool told_sex, MeasureSet& set) {
-    ScanOfPerson one(scene, told_sex ? person.sex : VFIT_SEX_UNKNOWN);
+    ScanOfPerson one(scene, told_sex ? person.sex : VFIT_SEX_UNKNOWN, set.turn);
     ++set.scans;
     if (!one.front(person)) {
         ++set.failed;
@@ -153,7 +164,7 @@ void scan(const PersonOfPopulation& person, const ScanScene& scene, bool told_se
     add(measured, person.measures, set.front);
     add(measurements_of(one.told_tight()), person.measures, set.front_told);
     add(measurements_of(one.paper()), person.measures, set.paper);
-    if (!one.side(person)) {
+    if (!one.all_round(person)) {
         ++set.failed;
         return;
     }
@@ -227,6 +238,8 @@ void run(const Options& o) {
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
     std::vector<MeasureSet> sets = {{"varied", BodySpace::kVaried, Dress::kTight},
                                     {"varied clothed", BodySpace::kVaried, Dress::kClothed},
+                                    {"varied turn", BodySpace::kVaried, Dress::kTight, true},
+                                    {"varied turn clothed", BodySpace::kVaried, Dress::kClothed, true},
                                     {"in space", BodySpace::kInside, Dress::kTight},
                                     {"off space", BodySpace::kOutside, Dress::kTight},
                                     {"clothed", BodySpace::kOutside, Dress::kClothed}};
@@ -281,10 +294,10 @@ void add_measure(Command& app) {
         .within(3, 1000);
     command.add_option("--first", o->first, "Number of the first");
     command.add_option("--seed", o->seed, "Of the population; those of training are 1000 and above");
-    command.add_option(
-        "--only", o->only,
-        "Sets whose name begins so: varied, varied clothed, in space, off space, clothed, repeated "
-        "(in space, off space, in clothes)");
+    command.add_option("--only", o->only,
+                       "Sets whose name begins so: varied, varied clothed, varied turn, varied turn clothed, "
+                       "in space, off space, clothed, repeated "
+                       "(in space, off space, in clothes)");
     command.add_flag("--told-sex", o->told_sex, "Tell the scan the person's sex");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { run(*o); });

@@ -62,8 +62,10 @@ struct MeasureSet {
     std::string name;
     BodySpace space;
     Dress dress;
+    bool turn = false;  // after the front a turn on the spot instead of the side
     bool is_varied() const { return space == BodySpace::kVaried; }
-    // Of a scan that is told nothing of clothes, and of one that is told that they are tight.
+    // Of a scan that is told nothing of clothes, and of one that is told that they are tight; both: of the
+    // front and the side, or the turn.
     MeasureTallies front{}, both{}, front_told{}, both_told{}, paper{};
     std::map<std::string, MeasureTallies>
         groups{};  // of real sets: front and side, told tight where clothes are

@@ -23,6 +23,7 @@ namespace {
 struct Options {
     uint32_t count = 10, first = 0, seed = 1000, scans = 2;
     std::string space = "in", out, recordings;
+    bool turn = false;
 };
 
 /// The active person's joints in camera space.
@@ -38,10 +39,13 @@ Body body_of(vfit_frame frame, uint32_t id, const Camera& camera, int64_t time_n
     return body;
 }
 
-/// Calls `kept` after each frame that was kept.
+constexpr uint32_t kFrontFrames = 20;  // before a turn
+enum class Turning { kNo, kYes };
+
+/// Calls `kept` after each frame that was kept; of a turn, after those from the front alone.
 void play(
     const std::string& uri, vfit_context context, vfit_tracker tracker, BodyScan& scan,
-    const std::function<void()>& kept = [] {}) {
+    const std::function<void()>& kept = [] {}, Turning turning = Turning::kNo) {
     Source source(context, uri);
     while (const auto frame = source.next()) {
         Frame tracked;
@@ -51,7 +55,11 @@ void play(
         const FrameImage image(tracked.get());
         const Body body =
             body_of(tracked.get(), bodies.front().body_id, image.camera, bodies.front().time_ns);
-        if (scan.add(image.image(), body) != ViewKind::kOther) kept();
+        if (turning == Turning::kYes && scan.frames(ViewKind::kFront) >= kFrontFrames) {
+            if (scan.fit_turning(image.image(), body)) scan.keep_turning(image.image(), body);
+        } else if (scan.add(image.image(), body) != ViewKind::kOther) {
+            kept();
+        }
     }
 }
 
@@ -66,11 +74,20 @@ Json rounded(const ScanFeatures& features) {
 Json number_or_null(float value) { return std::isnan(value) ? Json() : Json(value); }
 
 /// What the camera plainly sees, of a person of that sex.
-Json seen(const ScanFeatures& features, bool female) {
-    const SeenMeasures m = seen_measures(features, female);
+Json seen(float crown_m, const SectionGirths& girths, bool female) {
+    const SeenMeasures m = seen_measures(crown_m, girths, female);
     return {{"stature_m", number_or_null(m.stature_m)},
+            {"chest_girth_m", number_or_null(m.chest_girth_m)},
             {"waist_girth_m", number_or_null(m.waist_girth_m)},
             {"hip_girth_m", number_or_null(m.hip_girth_m)}};
+}
+
+Json seen(const ScanFeatures& features, bool female) {
+    return seen(features[kCrownFeature], section_girths(features), female);
+}
+
+Json seen_turning(const BodyScan& scan, bool female) {
+    return seen(std::nanf(""), scan.turned_girths_m(), female);
 }
 
 /// Folders with a truth.json, by their names.
@@ -103,10 +120,12 @@ void run_recordings(const Options& o, std::ostream& out) {
         BodyScan scan(model);
         const bool female = truth.at("sex") == "f";
         Json front, seen_front;
-        play(folder.string(), context.get(), tracker.get(), scan, [&] {
+        const auto kept = [&] {
             if (scan.frames(ViewKind::kSide)) return;
             front = rounded(scan.features(false)), seen_front = seen(scan.features(false), female);
-        });
+        };
+        play(folder.string(), context.get(), tracker.get(), scan, kept,
+             o.turn ? Turning::kYes : Turning::kNo);
         const bool both = scan.frames(ViewKind::kFront) && scan.frames(ViewKind::kSide);
         const Json line = {{"number", number++},
                            {"space", "recording"},
@@ -117,7 +136,8 @@ void run_recordings(const Options& o, std::ostream& out) {
                            {"front", front},
                            {"both", both ? rounded(scan.features(true)) : Json()},
                            {"seen_front", seen_front},
-                           {"seen_both", both ? seen(scan.features(true), female) : Json()}};
+                           {"seen_both", both ? seen(scan.features(true), female) : Json()},
+                           {"seen_turn", o.turn ? seen_turning(scan, female) : Json()}};
         out << line.dump() << std::endl;
     }
 }
@@ -155,6 +175,14 @@ void run(const Options& o) {
             const bool both = scan.frames(ViewKind::kSide) >= scene.side_frames / 2;
             line["both"] = both ? rounded(scan.features(true)) : Json();
             line["seen_both"] = both ? seen(scan.features(true), person.sex == VFIT_SEX_FEMALE) : Json();
+            line["seen_turn"] = Json();
+            if (o.turn) {  // before a tracker that has not seen the person
+                const Tracker other = open_own_tracker(context.get());
+                BodyScan turn(model);
+                play(scene.front_uri(person), context.get(), other.get(), turn);
+                play(scene.turn_uri(person), context.get(), other.get(), turn, [] {}, Turning::kYes);
+                line["seen_turn"] = seen_turning(turn, person.sex == VFIT_SEX_FEMALE);
+            }
             file << line.dump() << std::endl;
         }
     }
@@ -177,6 +205,7 @@ void add_scan_features(Command& app) {
     command.add_option("--recordings", o->recordings,
                        "Instead of generated people: a folder of recordings with a truth.json each "
                        "(tools/judge_measures)");
+    command.add_flag("--turn", o->turn, "A turn on the spot as well");
     command.add_option("--out", o->out, "File of JSON lines that is added to").required();
     command.callback([o] { run(*o); });
 }

@@ -43,6 +43,8 @@ const char* guidance_text(vfit_guidance guidance) {
         case VFIT_GUIDANCE_NOBODY: return "no person is in view";
         case VFIT_GUIDANCE_JOINTS_MISSING: return "joints are missing";
         case VFIT_GUIDANCE_FACE_CAMERA: return "the person does not face the camera";
+        case VFIT_GUIDANCE_TURN_ROUND: return "the person does not go on turning";
+        case VFIT_GUIDANCE_TURN_SLOWER: return "the person turns too fast";
         default: return "unknown reason";
     }
 }
@@ -79,6 +81,7 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
         }
         run.frames_taken = state.frames_taken;
         run.side_frames_taken = state.side_frames_taken;
+        run.turn_seen = state.turn_seen;
         progress.at(run.frames_taken, run.frames_wanted);
         if (result == VFIT_OK || ++seen == kPatience * state.frames_wanted) break;
     }
@@ -137,6 +140,14 @@ StoredMeasures read_measures(const std::string& path) {
     } catch (const Failure& failure) {
         throw Failure(path + ": " + failure.what());
     }
+}
+
+std::vector<vfit_measurement> calibrated_measurements(const std::string& calibration,
+                                                      const std::vector<vfit_measurement>& scanned) {
+    return list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_calibration_apply(calibration.data(), calibration.size(), scanned.data(),
+                                      sizeof(vfit_measurement), uint32_t(scanned.size()), items, stride, n);
+    });
 }
 
 std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a,

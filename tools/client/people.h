@@ -17,7 +17,8 @@ struct ScanOptions {
 struct ScanRun {
     Scan scan;
     uint32_t frames_taken = 0, frames_wanted = 0, side_frames_taken = 0;
-    uint32_t body_id = 0;  // who was scanned: the first that a frame was taken of
+    uint32_t turn_seen = 0;  // vfit_scan_state
+    uint32_t body_id = 0;    // who was scanned: the first that a frame was taken of
     vfit_scan_method method = VFIT_SCAN_DEFAULT;
     std::string note;                  // why another method than the default measured; empty: it did not
     double compute_ms = 0.0;           // of all frames taken
@@ -55,6 +56,9 @@ StoredMeasures read_measures(const std::string& path);
 /// Two scans of one person in one.
 std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a,
                                                   const std::vector<vfit_measurement>& b);
+/// A scan's measures as the tape of a calibration would tell them.
+std::vector<vfit_measurement> calibrated_measurements(const std::string& calibration,
+                                                      const std::vector<vfit_measurement>& scanned);
 /// What measurements_from reads again.
 std::string profile_text(const std::vector<vfit_measurement>& measurements, vfit_sex sex);
 

@@ -1,4 +1,5 @@
 // vfit measure: scans the person of a recording and prints the measures.
+#include <bit>
 #include <iomanip>
 #include <iostream>
 
@@ -11,11 +12,13 @@ namespace vfit::tools {
 
 namespace {
 
+constexpr uint32_t kSideFrames = 15, kNotSaid = UINT32_MAX;
+
 struct Options {
     std::string source, method, garment = "short_sleeves", sex = "unknown";
-    uint32_t frames = 0, side_frames = 15;
-    bool json = false, bare = false, tight = false;
-    std::string profile, merged, own;
+    uint32_t frames = 0, side_frames = kNotSaid;
+    bool json = false, bare = false, tight = false, turn = false;
+    std::string profile, merged, own, calibration;
     TrackOptions track;
 };
 
@@ -25,18 +28,26 @@ Json measure(const Options& options) {
     std::vector<vfit_measurement> earlier;
     if (!options.merged.empty()) earlier = read_measures(options.merged).measurements;
     const std::string own = options.own.empty() ? std::string() : read_text(options.own);
+    const std::string calibration =
+        options.calibration.empty() ? std::string() : read_text(options.calibration);
     const Context context = open_context();
     const ScanRun run = scan_source(
         context.get(), options.source,
-        {options.frames, sex_from(options.sex), method, options.track, options.side_frames,
-         (options.bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (options.tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u)});
+        {options.frames, sex_from(options.sex), method, options.track,
+         options.side_frames != kNotSaid ? options.side_frames
+         : options.turn                  ? 0u
+                                         : kSideFrames,
+         (options.bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (options.tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u) |
+             (options.turn ? uint32_t{VFIT_SCAN_TURN} : 0u)});
     Json out;
     out["method"] = scan_method_text(run.method);
     if (!run.note.empty()) out["note"] = run.note;
     out["frames"] = run.frames_taken;
     if (run.method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
+    if (options.turn) out["turned"] = double(std::popcount(run.turn_seen)) / double(VFIT_TURN_WAYS);
     std::vector<vfit_measurement> measured = measurements_of(run.scan.get());
     if (!options.merged.empty()) measured = merged_measurements(earlier, measured);
+    if (!options.calibration.empty()) measured = calibrated_measurements(calibration, measured);
     if (!options.own.empty()) {
         Avatar avatar;
         check(vfit_avatar_create_from_scan(context.get(), nullptr, run.scan.get(), avatar.out()));
@@ -129,17 +140,21 @@ void add_measure(Command& app) {
     command.add_option("--garment", o->garment, "Garment kind that the scale is for");
     command.add_option("--frames", o->frames, "Frames to average (default 30)").within(1, 3000);
     command
-        .add_option(
-            "--side-frames", o->side_frames,
-            "Of --method fit: frames to wait for from the side, after those from the front (default 15)")
+        .add_option("--side-frames", o->side_frames,
+                    "Of --method fit: frames to wait for from the side, after those from the front (default "
+                    "15, with --turn 0)")
         .within(0, 3000);
     command.add_option("--sex", o->sex, "f or m, where known").one_of({"f", "m", "unknown"});
     command.add_flag("--bare", o->bare, "Of --method fit: no shoes, and no hair on the crown");
     command.add_flag("--tight", o->tight, "Of --method fit: the clothes lie on the skin");
+    command.add_flag("--turn", o->turn,
+                     "Of --method fit: after the other frames the person turns once round on the spot");
     command.add_option("--own", o->own,
                        "File of measures of your own (docs/measuring.md), taken on the avatar of the scan");
     command.add_option("--merge", o->merged,
                        "Profile of an earlier scan of the same person, to merge with this one");
+    command.add_option("--calibration", o->calibration,
+                       "What your own tape differs by (vfit calibrate): measures as it would tell them");
     command.add_option("--profile", o->profile, "File to write the measures to, for vfit size and --merge");
     command.add_flag("--json", o->json, "Print JSON");
     add_track_options(command, o->track);

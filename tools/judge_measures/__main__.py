@@ -26,6 +26,7 @@ from renderer import Camera, room_depth, see, sense  # noqa: E402
 
 MEASURES = ("stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m")
 FRONT_FRAMES, SIDE_FRAMES, STILL_FRAMES = 45, 45, 20  # the tracker sees the room first
+TURN_FRAMES = 160  # once round
 GIRTHS, DEPTHS = (0.92, 1.0, 1.08, 1.18), (1.0, 0.95, 1.08)
 STATURES_M = {"f": (1.52, 1.60, 1.68, 1.76), "m": (1.65, 1.73, 1.81, 1.90)}
 SENSORS = [(512, 424, 366.0), (640, 480, 525.0)]  # Kinect v2; of the field of view of Kinect v1
@@ -55,8 +56,8 @@ class Person:
     def truth(self):
         return Tape(self.actor(35.0, 0.0), self.sex).measures()
 
-    def record(self, folder):
-        """From the front, then from the side, with small movements."""
+    def record(self, folder, turns):
+        """From the front, then from the side or once round on the spot, with small movements."""
         rng = self.rng
         width, height, focal = SENSORS[rng.integers(len(SENSORS))]
         camera_m, distance_m = rng.uniform(0.6, 1.6), rng.uniform(2.4, 3.1) + 0.35 * (focal > 500)
@@ -66,15 +67,18 @@ class Person:
         feet_m = rng.uniform(0.25, 0.35)
         front = self.actor(rng.uniform(30, 43), 0.0, feet_m), rng.uniform(-8, 8)
         side = self.actor(rng.uniform(6, 12), rng.uniform(30, 43), feet_m), 90 + rng.uniform(-8, 8)
-        views = [
-            (actor.skin(0), actor.joints(0), heading, frames)
-            for (actor, heading), frames in ((front, FRONT_FRAMES), (side, SIDE_FRAMES))
-        ]
-        views = [view for view in views for _ in range(view[-1])]
+        # Actor and heading of every frame.
+        views = [(front[0].skin(0), front[0].joints(0), front[1])] * FRONT_FRAMES
+        if turns:
+            turning = self.actor(rng.uniform(36, 48), 0.0, feet_m)
+            turning = turning.skin(0), turning.joints(0)
+            views += [(*turning, front[1] + 375 * i / TURN_FRAMES) for i in range(TURN_FRAMES)]
+        else:
+            views += [(side[0].skin(0), side[0].joints(0), side[1])] * SIDE_FRAMES
         recording = Recording(folder, camera, ["empty"] * STILL_FRAMES + ["scan"] * len(views))
         for _ in range(STILL_FRAMES):
             recording.add(sense(room, focal, rng), front[0].joints(0))
-        for frame, (skin, joints, heading, _) in enumerate(views):
+        for frame, (skin, joints, heading) in enumerate(views):
             t = frame / FPS
             turn = _about_up(heading + 0.7 * np.sin(1.1 * t))
             at = np.array([0.004 * np.sin(2.1 * t), 0, 0.006 * np.sin(1.4 * t + 1) - distance_m])
@@ -111,8 +115,8 @@ def measured(vfit, folder, flags):
     if done.returncode:
         return None, done.stderr.strip()
     out = json.loads(done.stdout)
-    if out["method"] != "fit" or not out.get("side_frames"):
-        return None, "no side view: " + out.get("note", "")
+    if out["method"] != "fit" or not (out.get("side_frames") or out.get("turned", 0) == 1):
+        return None, "no side view, or no whole turn: " + out.get("note", "")
     return out["measurements"], ""
 
 
@@ -138,20 +142,22 @@ def main():
     parser.add_argument("--vfit", default="build/bin/vfit", help="the program (build/bin/vfit)")
     parser.add_argument("--work", type=Path, required=True, help="recordings are kept there")
     parser.add_argument("--people", type=int, default=48, help="how many (48)")
+    parser.add_argument("--turn", action="store_true", help="a turn on the spot instead of the side view")
     parser.add_argument("--list", action="store_true", help="a line for each person")
     parser.add_argument("--json", type=Path, help="write the figures there")
     options = parser.parse_args()
     files = sorted(options.folder.glob("*.glb"))
     if not files:
         raise SystemExit(f"judge_measures: {options.folder}: holds no .glb")
-    told = {"told nothing": ([], []), "told tight": (["--tight"], [])}
+    turn = ["--turn"] if options.turn else []
+    told = {"told nothing": (turn, []), "told tight": (turn + ["--tight"], [])}
     for number in range(options.people):
         try:
             person = Person(files[number % len(files)], number)
             truth = person.truth()
-            folder = options.work / person.name
+            folder = options.work / (person.name + ("-turn" if options.turn else ""))
             if not (folder / "camera.json").exists():
-                person.record(folder)
+                person.record(folder, options.turn)
             (folder / "truth.json").write_text(json.dumps({"sex": person.sex, "measures": truth}))
         except (BadFile, OSError) as error:
             raise SystemExit(f"judge_measures: {error}") from None

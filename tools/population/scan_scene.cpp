@@ -44,6 +44,7 @@ ScanScene ScanScene::draw(Dress dress, uint32_t seed) {
     scene.side_turned_deg = 90.0f + random.between(-kTurned_deg, kTurned_deg);
     scene.arms_deg = random.between(28.0f, 45.0f);
     scene.side_arms_deg = random.between(30.0f, 45.0f);
+    scene.turn_arms_deg = Random(seed ^ 0x7a63u).between(35.0f, 50.0f);
     const bool tight = dress == Dress::kTight || (dress == Dress::kTraining && random.unit() < 0.45f);
     if (tight) return scene;
     for (float* zone : {&scene.top_m, &scene.sleeves_m, &scene.trousers_m}) {
@@ -87,6 +88,11 @@ std::string ScanScene::front_uri(const PersonOfPopulation& person) const {
 std::string ScanScene::side_uri(const PersonOfPopulation& person) const {
     return uri(person) + "&motion=side&facing=" + text_of(side_turned_deg) +
            "&arms=" + text_of(side_arms_deg) + "&frames=" + std::to_string(side_frames);
+}
+
+std::string ScanScene::turn_uri(const PersonOfPopulation& person) const {
+    return uri(person) + "&motion=round&facing=" + text_of(turned_deg) + "&arms=" + text_of(turn_arms_deg) +
+           "&rate=15&frames=" + std::to_string(turn_frames);
 }
 
 Json ScanScene::json() const {

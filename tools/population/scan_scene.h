@@ -20,9 +20,10 @@ struct ScanScene {
     std::string sensor = "kinect_v1";
     float distance_m = 2.7f, camera_height_m = 1.0f, tilt_deg = 0.0f;
     bool floor_given = true;  // else it is found in the picture
-    float turned_deg = 0.0f, side_turned_deg = 90.0f, arms_deg = 35.0f, side_arms_deg = 37.0f;
+    float turned_deg = 0.0f, side_turned_deg = 90.0f, arms_deg = 35.0f, side_arms_deg = 37.0f,
+          turn_arms_deg = 42.0f;
     float top_m = 0.0f, sleeves_m = 0.0f, trousers_m = 0.0f;
-    uint32_t front_frames = 30, side_frames = 15, seed = 1;
+    uint32_t front_frames = 30, side_frames = 15, turn_frames = 144, seed = 1;
 
     /// A Kinect v1 or a time-of-flight camera on a stand or a shelf, looking at the middle of the person, as
     /// near as it sees all of them or up to 3.1 m away; clothes as said.
@@ -33,6 +34,7 @@ struct ScanScene {
     /// Of the front view, and of the side view after it.
     std::string front_uri(const PersonOfPopulation& person) const;
     std::string side_uri(const PersonOfPopulation& person) const;
+    std::string turn_uri(const PersonOfPopulation& person) const;
     Json json() const;
 
 private:

@@ -330,6 +330,26 @@ namespace Vfit.Tests
         }
 
         [Test]
+        public void ScansAreCalibratedToATape()
+        {
+            string calibration = null;
+            for (int i = 0; i < 40; ++i)
+                calibration = Measurements.AddToCalibration(
+                    calibration, new[] { Measurements.Known("waist_girth_m", 0.8f, 0.01f) },
+                    new[] { Measurements.Known("waist_girth_m", 0.82f + 0.001f * (i % 5)) });
+            CalibratedMeasure[] told = Measurements.Calibrated(calibration);
+            Assert.AreEqual(1, told.Length);
+            Assert.AreEqual("waist_girth_m", told[0].Key);
+            Assert.AreEqual(40, told[0].People);
+            Assert.AreEqual(0.022f, told[0].Offset, 0.001f);
+            Measurement[] scan = Measurements.Calibrate(
+                calibration, new[] { Measurements.Known("waist_girth_m", 0.9f, 0.01f) });
+            Assert.AreEqual(0.922f, scan[0].Value, 0.001f);
+            Assert.Less(scan[0].Sigma, 0.005f);
+            Assert.AreEqual(Result.ErrorData, Support.CodeOf(() => Measurements.Calibrated("{}")));
+        }
+
+        [Test]
         public void ABodyIsShapedMeasuredAndTakenApart()
         {
             ShapeValue[] shapes = Context.Shapes();

@@ -8,13 +8,14 @@ namespace vfit_python {
 namespace {
 
 std::shared_ptr<Scan> create(const Context& context, uint32_t frames, const py::object& sex, int method,
-                             uint32_t side_frames, bool bare, bool tight) {
+                             uint32_t side_frames, bool bare, bool tight, bool turn) {
     vfit_scan_desc desc = vfit_scan_desc_init();
     desc.frame_count = frames;
     desc.sex = sex_in(sex);
     desc.method = method;
     desc.side_frame_count = side_frames;
-    desc.flags = (bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u);
+    desc.flags = (bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u) |
+                 (turn ? uint32_t{VFIT_SCAN_TURN} : 0u);
     vfit_scan handle{};
     run([&, h = context.handle()] { return vfit_scan_create(h, &desc, &handle); });
     return make<Scan>(context.core(), handle);
@@ -27,7 +28,7 @@ py::object add(const Scan& scan, const Frame& frame, const std::optional<uint32_
         run([&, s = scan.get(), f = frame.get()] { return vfit_scan_add(s, f, body, &state); });
     return value("ScanState", result != VFIT_INCOMPLETE, result == VFIT_OK, state.frames_taken,
                  state.frames_wanted, value("Guidance", state.guidance), state.correction_m, state.compute_ms,
-                 state.side_frames_taken, state.side_frames_wanted);
+                 state.side_frames_taken, state.side_frames_wanted, state.turn_seen, state.turn_wanted);
 }
 
 py::dict measure(const Scan& scan) { return measurements_out(list(vfit_scan_measure, scan.get())); }
@@ -54,9 +55,11 @@ void bind_scan(py::module_& m) {
                  m, "Scan", "Measures one person over several frames; closing it wipes the body data.")
                  .def(py::init(&create), "context"_a, py::kw_only(), "frames"_a = 0, "sex"_a = py::none(),
                       "method"_a = 0, "side_frames"_a = 0, "bare"_a = false, "tight"_a = false,
+                      "turn"_a = false,
                       "frames 0: 30, as in the paper. Of method FIT: side_frames, from the side, 15 are "
                       "enough; bare: no shoes "
-                      "and no hair on the crown; tight: the clothes lie on the skin.")
+                      "and no hair on the crown; tight: the clothes lie on the skin; turn: then once "
+                      "round on the spot.")
                  .def("add", &add, "frame"_a, "body_id"_a = py::none(),
                       "One tracked frame; the state says whether it was taken, and if not why. Default: its "
                       "active body.")

@@ -85,6 +85,43 @@ py::dict merge_measurements(const py::object& a, const py::object& b) {
     }));
 }
 
+py::str add_to_calibration(const std::optional<std::string>& text, const py::object& scanned,
+                           const py::object& taped) {
+    const std::vector<vfit_measurement> scan = measurements_in(scanned), tape = measurements_in(taped);
+    std::string out;
+    uint32_t capacity = 0;
+    const auto add = [&](char* to) {
+        check(vfit_calibration_add(text ? text->data() : nullptr, text ? text->size() : 0, scan.data(),
+                                   sizeof(vfit_measurement), static_cast<uint32_t>(scan.size()), tape.data(),
+                                   sizeof(vfit_measurement), static_cast<uint32_t>(tape.size()), to,
+                                   &capacity));
+    };
+    add(nullptr);
+    out.resize(capacity);
+    add(out.data());
+    out.resize(capacity - 1);
+    return py::str(out);
+}
+
+py::dict calibrated_measures(const std::string& text) {
+    py::dict out;
+    for (const vfit_calibrated_measure& m :
+         list<vfit_calibrated_measure>([&](auto* items, uint32_t stride, uint32_t* n) {
+             return vfit_calibration_measures(text.data(), text.size(), items, stride, n);
+         }))
+        out[py::str(field(m.key))] =
+            value("CalibratedMeasure", m.people, m.enough != 0, m.offset, m.widening);
+    return out;
+}
+
+py::dict calibrate(const std::string& text, const py::object& measurements) {
+    const std::vector<vfit_measurement> given = measurements_in(measurements);
+    return measurements_out(list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_calibration_apply(text.data(), text.size(), given.data(), sizeof(vfit_measurement),
+                                      static_cast<uint32_t>(given.size()), items, stride, n);
+    }));
+}
+
 }  // namespace
 
 void bind_size(py::module_& m) {
@@ -103,6 +140,12 @@ void bind_size(py::module_& m) {
           "As JSON text, for an app that keeps them with the person's consent.");
     m.def("read_measurements", &read_measurements, "json"_a, "(measurements, sex) of such a text.");
     m.def("merge_measurements", &merge_measurements, "a"_a, "b"_a, "Two scans of one person in one.");
+    m.def("add_to_calibration", &add_to_calibration, "text"_a, "scanned"_a, "taped"_a,
+          "A calibration, as JSON text, with one more person; text None: the first one.");
+    m.def("calibrated_measures", &calibrated_measures, "text"_a,
+          "key -> CalibratedMeasure: people, enough, offset, widening.");
+    m.def("calibrate", &calibrate, "text"_a, "measurements"_a,
+          "Measures of a scan as the calibration's tape would tell them.");
 }
 
 }  // namespace vfit_python

@@ -128,7 +128,9 @@ void bind_vocabulary(py::module_& m) {
               {"ONE_PERSON_ONLY", VFIT_GUIDANCE_ONE_PERSON_ONLY},
               {"NOBODY", VFIT_GUIDANCE_NOBODY},
               {"JOINTS_MISSING", VFIT_GUIDANCE_JOINTS_MISSING},
-              {"FACE_CAMERA", VFIT_GUIDANCE_FACE_CAMERA}},
+              {"FACE_CAMERA", VFIT_GUIDANCE_FACE_CAMERA},
+              {"TURN_ROUND", VFIT_GUIDANCE_TURN_ROUND},
+              {"TURN_SLOWER", VFIT_GUIDANCE_TURN_SLOWER}},
              "Why a scan did not take a frame.");
 
     py::tuple names(VFIT_BONE_COUNT), parents(VFIT_BONE_COUNT);

@@ -51,6 +51,19 @@ def test_the_fitted_body_measures_from_the_front_and_the_side():
         assert waist.observed and abs(waist.value - truth["waist_girth_m"]) < max(0.03, 3.5 * waist.sigma)
 
 
+def test_a_turn_on_the_spot_is_followed():
+    with vfit.Context() as ctx:
+        scan = vfit.Scan(ctx, frames=6, turn=True, bare=True, tight=True)
+        for view in ("motion=scan&frames=8", "motion=round&frames=150&rate=15"):
+            with ctx.open("virtual:sensor=kinect_v1&sex=f&" + view) as sensor:
+                for frame in sensor:
+                    state = scan.add(frame, 1)
+                    if not state.complete:
+                        assert state.turn_wanted == (1 << 24) - 1
+        assert state.complete and state.turn_seen == state.turn_wanted
+        assert scan.measure()["waist_girth_m"].observed
+
+
 def test_measures_come_with_sigma_and_near_the_truth(fitted):
     _, scan, _, truth, _, _ = fitted
     measures = scan.measure()
@@ -130,6 +143,21 @@ def test_measurements_are_kept_as_text_and_merged():
         vfit.merge_measurements(again, {"stature_m": (1.9, 0.01)})
     with pytest.raises(vfit.DataError, match="JSON"):
         vfit.read_measurements("{")
+
+
+def test_scans_are_calibrated_to_a_tape():
+    text = None
+    for i in range(40):
+        tape = {"waist_girth_m": 0.82 + 0.001 * (i % 5), "hip_girth_m": 1.0}
+        text = vfit.add_to_calibration(text, {"waist_girth_m": (0.8, 0.01)}, tape)
+    told = vfit.calibrated_measures(text)
+    assert set(told) == {"waist_girth_m"}
+    assert told["waist_girth_m"].people == 40 and told["waist_girth_m"].enough
+    scan = vfit.calibrate(text, {"waist_girth_m": (0.9, 0.01), "stature_m": (1.7, 0.01)})
+    assert scan["waist_girth_m"].value == pytest.approx(0.922, abs=0.001)
+    assert scan["waist_girth_m"].sigma < 0.005 and scan["stature_m"].sigma == pytest.approx(0.01)
+    with pytest.raises(vfit.DataError, match="sigma"):
+        vfit.add_to_calibration(None, {"waist_girth_m": 0.8}, {"waist_girth_m": 0.8})
 
 
 def test_the_pose_is_arrays_and_can_be_given_back(fitted):

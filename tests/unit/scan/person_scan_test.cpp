@@ -58,6 +58,47 @@ TEST_F(PersonScanTest, TakesTheFrontAndThenTheSide) {
     EXPECT_FALSE(add(scan, side_).taken) << "nothing more is wanted";
 }
 
+TEST_F(PersonScanTest, LeadsOnceRound) {
+    PersonScanDesc turn = desc(4, 0);
+    turn.turn = turn.tight = true;
+    PersonScan scan(turn);
+    EXPECT_EQ(scan.turn_wanted(), TurnRing::kAll);
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(add(scan, front_).taken) << i;
+    EXPECT_FALSE(scan.complete());
+    for (int i = 0; i < 20; ++i) add(scan, front_);
+    EXPECT_EQ(scan.turn_seen(), 1u);
+    EXPECT_EQ(add(scan, front_).guidance, VFIT_GUIDANCE_TURN_ROUND) << "stands still";
+    time_ns_ += 1'000'000'000;
+    EXPECT_EQ(add(scan, standing_person(avatar_, {0.6f, 0.05f})).guidance, VFIT_GUIDANCE_ARMS_OUT);
+    const float before = find(scan.measurements(), "waist_girth_m")->sigma;
+    const auto turned = [&](float rad) {
+        Stance stance;
+        stance.turned_rad = rad, stance.arms_rad = 0.75f;
+        return standing_person(avatar_, stance);
+    };
+    bool slower = false;
+    for (const float rad : {0.1f, 0.25f, 0.4f, 0.55f})
+        slower |= add(scan, turned(rad)).guidance == VFIT_GUIDANCE_TURN_SLOWER;
+    EXPECT_TRUE(slower) << "0.15 radians a frame are 4.5 a second";
+    for (int way = 0; way < 23; ++way) {
+        EXPECT_FALSE(scan.complete()) << way;
+        time_ns_ += 400'000'000;
+        const ScanProgress progress = add(scan, turned(float(way + 1) * kPi / 12.0f));
+        EXPECT_TRUE(progress.taken || progress.guidance == VFIT_GUIDANCE_TURN_ROUND)
+            << way << ": " << progress.guidance;
+    }
+    EXPECT_TRUE(scan.complete());
+    EXPECT_EQ(scan.turn_seen(), scan.turn_wanted());
+    const auto tape = measure_avatar(avatar_, VFIT_SEX_FEMALE);
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"}) {
+        const Measurement* m = find(scan.measurements(), key);
+        EXPECT_NEAR(m->value, find(tape, key)->value, std::min(0.03f, 3.0f * m->sigma)) << key;
+    }
+    EXPECT_LT(find(scan.measurements(), "waist_girth_m")->sigma, before) << "all around tells more";
+    scan.reset();
+    EXPECT_EQ(scan.turn_seen(), 0u);
+}
+
 TEST_F(PersonScanTest, MeasuresAPersonOfItsOwnSpace) {
     PersonScan scan(desc(8, 0));
     for (int i = 0; i < 8; ++i) add(scan, front_);

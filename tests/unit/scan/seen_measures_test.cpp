@@ -45,13 +45,31 @@ ScanFeatures trunk(const std::function<Half(float)>& along) {
     return f;
 }
 
+SeenMeasures seen_of(const ScanFeatures& f, bool female) {
+    return seen_measures(f[kCrownFeature], section_girths(f), female);
+}
+
 TEST(SeenMeasures, AreTheGirthsOfWhatIsSeen) {
     const ScanFeatures f = trunk([](float) { return Half{17.0f, 11.0f, 11.0f}; });
-    const SeenMeasures seen = seen_measures(f, true);
+    const SeenMeasures seen = seen_of(f, true);
     EXPECT_EQ(seen.stature_m, 1.75f);
     EXPECT_NEAR(seen.waist_girth_m, 0.01f * ellipse(17.0f, 11.0f), 0.015f);
     EXPECT_NEAR(seen.hip_girth_m, seen.waist_girth_m, 1e-4f);
-    EXPECT_EQ(seen_measures(f, false).waist_girth_m, seen.waist_girth_m);
+    EXPECT_EQ(seen_of(f, false).waist_girth_m, seen.waist_girth_m);
+    EXPECT_TRUE(std::isnan(seen.chest_girth_m)) << "from the side the arms hide it";
+}
+
+TEST(SeenMeasures, AChestThatIsSeenIsTheLargestGirthBelowTheArmpits) {
+    SectionGirths girths;
+    for (int l = 0; l < TrunkProfile::kLevels; ++l) {  // widest at the chest
+        const float apart = TrunkProfile::along(l) - 0.58f;
+        girths[size_t(l)] = 1.0f - apart * apart;
+    }
+    const SeenMeasures seen = seen_measures(1.7f, girths, true);
+    EXPECT_NEAR(seen.chest_girth_m, 1.0f, 0.002f);
+    EXPECT_NEAR(seen.waist_girth_m, 1.0f - 0.252f * 0.252f, 0.002f);
+    girths.fill(std::nanf(""));
+    EXPECT_TRUE(std::isnan(seen_measures(1.7f, girths, true).chest_girth_m));
 }
 
 TEST(SeenMeasures, AreTakenAtTheirLevels) {
@@ -61,7 +79,7 @@ TEST(SeenMeasures, AreTakenAtTheirLevels) {
         return Half{18.0f * scale, 12.0f * scale, 12.0f * scale};
     };
     const ScanFeatures f = trunk(narrower_upwards);
-    const SeenMeasures woman = seen_measures(f, true), man = seen_measures(f, false);
+    const SeenMeasures woman = seen_of(f, true), man = seen_of(f, false);
     const float whole = 0.01f * ellipse(18.0f, 12.0f);
     EXPECT_NEAR(woman.waist_girth_m, whole * (1.0f - 0.5f * 0.328f), 0.02f);
     EXPECT_NEAR(man.waist_girth_m - woman.waist_girth_m, whole * 0.5f * 0.02f, 0.002f);
@@ -70,20 +88,20 @@ TEST(SeenMeasures, AreTakenAtTheirLevels) {
 
 TEST(SeenMeasures, ASquareSectionIsLongerThanAnEllipseOfItsBreadthAndDepth) {
     ScanFeatures f = trunk([](float) { return Half{17.0f, 11.0f, 11.0f}; });
-    const float round = seen_measures(f, true).waist_girth_m;
+    const float round = seen_of(f, true).waist_girth_m;
     for (int l = 0; l < TrunkProfile::kLevels; ++l)
         for (int q = 1; q <= 3; ++q)
             f[kFrontReaches + size_t(l) * TrunkProfile::kReachesFromFront +
               size_t(TrunkProfile::kAhead + q)] = 8.0f;  // as far as in the middle
-    EXPECT_GT(seen_measures(f, true).waist_girth_m, round + 0.01f);
+    EXPECT_GT(seen_of(f, true).waist_girth_m, round + 0.01f);
 }
 
 TEST(SeenMeasures, AnArmThatHidesTheOutlineAtSomeLevelsIsNoPartOfIt) {
     ScanFeatures f = trunk([](float) { return Half{17.0f, 11.0f, 11.0f}; });
-    const float clear = seen_measures(f, true).waist_girth_m;
+    const float clear = seen_of(f, true).waist_girth_m;
     for (const int level : {11, 12, 13})
         f[kSideReaches + size_t(level) * TrunkProfile::kReaches + TrunkProfile::kAhead] = 30.0f;
-    EXPECT_NEAR(seen_measures(f, true).waist_girth_m, clear, 0.001f);
+    EXPECT_NEAR(seen_of(f, true).waist_girth_m, clear, 0.001f);
 }
 
 TEST(SeenMeasures, WhatNoViewShowsIsNotTold) {
@@ -91,8 +109,9 @@ TEST(SeenMeasures, WhatNoViewShowsIsNotTold) {
     for (size_t i = kSideReaches; i < kSideReaches + size_t(TrunkProfile::kLevels) * TrunkProfile::kReaches;
          ++i)
         f[i] = std::nanf("");
-    const SeenMeasures seen = seen_measures(f, true);
-    EXPECT_TRUE(std::isnan(seen.waist_girth_m) && std::isnan(seen.hip_girth_m));
+    const SeenMeasures seen = seen_of(f, true);
+    EXPECT_TRUE(std::isnan(seen.waist_girth_m) && std::isnan(seen.hip_girth_m) &&
+                std::isnan(seen.chest_girth_m));
     EXPECT_EQ(seen.stature_m, 1.75f);
 }
 

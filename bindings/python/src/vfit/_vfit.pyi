@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from .values import (
     AvatarPart,
     Body,
+    CalibratedMeasure,
     Camera,
     CharacterInfo,
     ClothStats,
@@ -179,6 +180,8 @@ class Guidance(IntEnum):
     NOBODY = 8
     JOINTS_MISSING = 9
     FACE_CAMERA = 10
+    TURN_ROUND = 11
+    TURN_SLOWER = 12
 
 class Joint(IntEnum):
     """What a sensor sees. LEFT is the person's own left."""
@@ -460,6 +463,7 @@ class Scan(_Closable):
         side_frames: int = 0,
         bare: bool = False,
         tight: bool = False,
+        turn: bool = False,
     ) -> None: ...
     def add(self, frame: Frame, body_id: Optional[int] = None) -> ScanState: ...
     def measure(self) -> dict[str, Measurement]: ...
@@ -490,6 +494,15 @@ def read_measurements(json: Union[str, bytes]) -> tuple[dict[str, Measurement], 
 
 def merge_measurements(a: _Measures, b: _Measures) -> dict[str, Measurement]:
     """Two scans of one person in one."""
+
+def add_to_calibration(text: Union[str, bytes, None], scanned: _Measures, taped: _Measures) -> str:
+    """A calibration to a tape of your own, with one more person; text None: the first one."""
+
+def calibrated_measures(text: Union[str, bytes]) -> dict[str, CalibratedMeasure]:
+    """What a calibration says of each measure."""
+
+def calibrate(text: Union[str, bytes], measurements: _Measures) -> dict[str, Measurement]:
+    """Measures of a scan as the calibration's tape would tell them."""
 
 class Avatar(_Closable):
     """A posable body. detail 0: 13.7k vertices, 1: 54.8k, 2: 219k, 3: 1.0k, for crowds."""

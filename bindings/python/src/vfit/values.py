@@ -24,6 +24,7 @@ from ._vfit import (
 __all__ = [
     "AvatarPart",
     "Body",
+    "CalibratedMeasure",
     "Camera",
     "CharacterInfo",
     "ClothStats",
@@ -233,6 +234,9 @@ class ScanState(NamedTuple):
     compute_ms: float
     side_frames_taken: int
     side_frames_wanted: int
+    turn_seen: int
+    """Of a turn, a bit for each way to face: bit i is i times 15 degrees to the person's left."""
+    turn_wanted: int
 
 
 class Measurement(NamedTuple):
@@ -266,6 +270,18 @@ class Scale(NamedTuple):
 class Size(NamedTuple):
     label: str
     probability: float
+
+
+class CalibratedMeasure(NamedTuple):
+    """What a tape of your own says of scans of the same people, by one measure."""
+
+    people: int
+    enough: bool
+    """People; else nothing is changed."""
+    offset: float
+    """Of the tape from the scan, in the measure's unit."""
+    widening: float
+    """Of sigma."""
 
 
 class SizeRow(NamedTuple):

@@ -61,6 +61,51 @@ namespace Vfit
             }
         }
 
+        /// <summary>
+        /// A calibration to a tape of your own, as JSON, with one more person: what the scan and what the
+        /// tape told. Null: the first one.
+        /// </summary>
+        public static string AddToCalibration(string calibration, Measurement[] scanned, Measurement[] taped)
+        {
+            Arrays.Check(scanned, 0, "scanned");
+            Arrays.Check(taped, 0, "taped");
+            byte[] encoded = calibration == null ? null : Utf8Text.Encode(calibration, "calibration");
+            ulong length = encoded == null ? 0 : (ulong)encoded.Length - 1;
+            uint stride = (uint)sizeof(Measurement), capacity = 0;
+            fixed (byte* before = encoded)
+            fixed (Measurement* scan = scanned, tape = taped)
+            {
+                Calls.CalibrationAdd(before, length, scan, stride, (uint)scanned.Length, tape, stride,
+                                     (uint)taped.Length, null, &capacity);
+                var text = new byte[capacity];
+                fixed (byte* bytes = text)
+                {
+                    Calls.CalibrationAdd(before, length, scan, stride, (uint)scanned.Length, tape, stride,
+                                         (uint)taped.Length, bytes, &capacity);
+                    return Utf8Text.Read(bytes, text.Length);
+                }
+            }
+        }
+
+        /// <summary>What a calibration says of each measure.</summary>
+        public static CalibratedMeasure[] Calibrated(string calibration)
+        {
+            byte[] encoded = Utf8Text.Encode(calibration, "calibration");
+            fixed (byte* bytes = encoded)
+                return Calls.CalibrationMeasures(bytes, (ulong)encoded.Length - 1);
+        }
+
+        /// <summary>Measures of a scan as the calibration's tape would tell them.</summary>
+        public static Measurement[] Calibrate(string calibration, Measurement[] scanned)
+        {
+            Arrays.Check(scanned, 0, "scanned");
+            byte[] encoded = Utf8Text.Encode(calibration, "calibration");
+            fixed (byte* bytes = encoded)
+            fixed (Measurement* scan = scanned)
+                return Calls.CalibrationApply(bytes, (ulong)encoded.Length - 1, scan,
+                                              (uint)sizeof(Measurement), (uint)scanned.Length);
+        }
+
         /// <summary>Two scans of one person in one list.</summary>
         public static Measurement[] Merge(Measurement[] a, Measurement[] b)
         {

@@ -1365,6 +1365,105 @@ namespace Vfit
             return (int)listed;
         }
 
+        internal static Result CalibrationAdd(void* text, ulong byteCount, Measurement* scanned,
+            uint scannedStride, uint scannedCount, Measurement* taped, uint tapedStride, uint tapedCount,
+            byte* @out, uint* capacity)
+        {
+            Result result = VfitException.Check(Native.vfit_calibration_add(
+                text, byteCount, scanned, scannedStride, scannedCount, taped, tapedStride, tapedCount, @out,
+                capacity));
+            return result;
+        }
+
+        internal static Result CalibrationMeasures(void* text, ulong byteCount, CalibratedMeasure* items,
+            uint stride, uint* count)
+        {
+            Result result = VfitException.Check(Native.vfit_calibration_measures(
+                text, byteCount, items, stride, count));
+            return result;
+        }
+
+        internal static CalibratedMeasure[] CalibrationMeasures(void* text, ulong byteCount)
+        {
+            uint listed = 0;
+            CalibrationMeasures(text, byteCount, null, (uint)sizeof(CalibratedMeasure), &listed);
+            for (;;)
+            {
+                var list = new CalibratedMeasure[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (CalibratedMeasure* first = list) CalibrationMeasures(text, byteCount, first,
+                        (uint)sizeof(CalibratedMeasure), &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int CalibrationMeasures(void* text, ulong byteCount, CalibratedMeasure[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            CalibratedMeasure none;
+            uint listed = (uint)into.Length;
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) CalibrationMeasures(text, byteCount, &none, (uint)sizeof(CalibratedMeasure),
+                &listed);
+            else fixed (CalibratedMeasure* first = into) CalibrationMeasures(text, byteCount, first,
+                (uint)sizeof(CalibratedMeasure), &listed);
+            return (int)listed;
+        }
+
+        internal static Result CalibrationApply(void* text, ulong byteCount, Measurement* scanned,
+            uint scannedStride, uint scannedCount, Measurement* items, uint stride, uint* count)
+        {
+            Result result = VfitException.Check(Native.vfit_calibration_apply(
+                text, byteCount, scanned, scannedStride, scannedCount, items, stride, count));
+            return result;
+        }
+
+        internal static Measurement[] CalibrationApply(void* text, ulong byteCount, Measurement* scanned,
+            uint scannedStride, uint scannedCount)
+        {
+            uint listed = 0;
+            CalibrationApply(text, byteCount, scanned, scannedStride, scannedCount, null,
+                (uint)sizeof(Measurement), &listed);
+            for (;;)
+            {
+                var list = new Measurement[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (Measurement* first = list) CalibrationApply(text, byteCount, scanned,
+                        scannedStride, scannedCount, first, (uint)sizeof(Measurement), &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int CalibrationApply(void* text, ulong byteCount, Measurement* scanned,
+            uint scannedStride, uint scannedCount, Measurement[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            Measurement none;
+            uint listed = (uint)into.Length;
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) CalibrationApply(text, byteCount, scanned, scannedStride, scannedCount, &none,
+                (uint)sizeof(Measurement), &listed);
+            else fixed (Measurement* first = into) CalibrationApply(text, byteCount, scanned, scannedStride,
+                scannedCount, first, (uint)sizeof(Measurement), &listed);
+            return (int)listed;
+        }
+
         internal static Result SizeChartList(ContextHandle context, DataName* items, uint stride, uint* count)
         {
             bool contextHeld = false;

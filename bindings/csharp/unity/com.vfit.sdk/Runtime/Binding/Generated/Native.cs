@@ -358,6 +358,29 @@ namespace Vfit
         internal static extern Result vfit_measurements_merge(Measurement* a, uint aStride, uint aCount,
             Measurement* b, uint bStride, uint bCount, Measurement* items, uint stride, uint* count);
 
+        /// <summary>Calibration to a shop's own tape, kept by the app as JSON text that holds errors alone,
+        /// no bodies (docs/measuring.md). vfit_calibration_add: of one more person what a scan told, with
+        /// sigma, and what the tape told; text null and byte_count 0: the first one. out null sets *capacity
+        /// to what is needed; too little: VFIT_ERROR_CAPACITY, and the same. No measure in common:
+        /// VFIT_ERROR_DATA. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_calibration_add(void* text, ulong byteCount, Measurement* scanned,
+            uint scannedStride, uint scannedCount, Measurement* taped, uint tapedStride, uint tapedCount,
+            byte* @out, uint* capacity);
+
+        /// <summary>[any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_calibration_measures(void* text, ulong byteCount,
+            CalibratedMeasure* items, uint stride, uint* count);
+
+        /// <summary>Measures of a scan as that tape would tell them: for each measure with at least 20 people
+        /// the value is moved by the offset, and sigma is such that at least 90 % of further people lie
+        /// within 1.645 of it. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_calibration_apply(void* text, ulong byteCount,
+            Measurement* scanned, uint scannedStride, uint scannedCount, Measurement* items, uint stride,
+            uint* count);
+
         /// <summary>Names of the size charts in data_dir/charts, in alphabetical order. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_size_chart_list(ContextId context, DataName* items, uint stride,

@@ -275,6 +275,9 @@ namespace Vfit
         Nobody = 8,
         JointsMissing = 9,
         FaceCamera = 10,
+        /// <summary>go on turning: that way has been seen</summary>
+        TurnRound = 11,
+        TurnSlower = 12,
     }
 
     [Flags]
@@ -287,6 +290,10 @@ namespace Vfit
         /// <summary>of FIT: the clothes lie on the skin, as sportswear does. Otherwise up to 3 cm of cloth
         /// are reckoned with</summary>
         Tight = 2,
+        /// <summary>of FIT: after the other frames the person turns once round on the spot, arms held out:
+        /// girths of the trunk from its outline all around are combined with those of the other
+        /// views</summary>
+        Turn = 4,
     }
 
     [Flags]
@@ -862,7 +869,7 @@ namespace Vfit
         public ScanFlags Flags;
     }
 
-    [StructLayout(LayoutKind.Sequential, Size = 32)]
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
     public unsafe partial struct ScanState
     {
         internal uint StructSize;
@@ -874,10 +881,16 @@ namespace Vfit
         public float CorrectionM;
         /// <summary>of the last frame</summary>
         public float ComputeMs;
-        /// <summary>frames_taken: from the front</summary>
+        /// <summary>frames_taken: from the front Of a turn, a bit for each of VFIT_TURN_WAYS ways to face:
+        /// bit i is i times 15 degrees to the person's left of facing the camera. turn_wanted 0: no turn is
+        /// asked for.</summary>
         public uint SideFramesTaken;
-        /// <summary>frames_taken: from the front</summary>
+        /// <summary>frames_taken: from the front Of a turn, a bit for each of VFIT_TURN_WAYS ways to face:
+        /// bit i is i times 15 degrees to the person's left of facing the camera. turn_wanted 0: no turn is
+        /// asked for.</summary>
         public uint SideFramesWanted;
+        public uint TurnSeen;
+        public uint TurnWanted;
     }
 
     /// <summary>key: "stature_m", "chest_girth_m", "body_mass_kg", ... (vfit_measure_key): the unit is in
@@ -972,6 +985,26 @@ namespace Vfit
         public float Tight;
         public float Regular;
         public float Loose;
+        internal fixed byte keyBytes[48];
+        public string Key
+        {
+            get { fixed (byte* bytes = keyBytes) return Utf8Text.Read(bytes, 48); }
+            set { fixed (byte* bytes = keyBytes) Utf8Text.Write(value, bytes, 48, "Key"); }
+        }
+    }
+
+    /// <summary>What a shop's own tape says of scans of the same people, by measure. enough 0: too few
+    /// people, nothing is changed.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 68)]
+    public unsafe partial struct CalibratedMeasure
+    {
+        internal uint StructSize;
+        public uint People;
+        public uint Enough;
+        /// <summary>of the tape from the scan, in the key's unit</summary>
+        public float Offset;
+        /// <summary>of sigma</summary>
+        public float Widening;
         internal fixed byte keyBytes[48];
         public string Key
         {

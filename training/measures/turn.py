@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Learns what girths read off a turn's outline are off by, from scans of generated people (vfit-bench
+scan-features --turn), and writes it into the measure model: by clothes and sex a median, and a deviation of
+which 1.645 hold 90 % of errors. Needs numpy alone.
+"""
+
+import argparse
+import json
+
+import numpy as np
+from train import read, tight
+
+GIRTHS = ("chest_girth_m", "waist_girth_m", "hip_girth_m")
+SEXES = {"male": "m", "female": "f"}
+
+
+def errors_of(rows, girth):
+    """Of the truth from what is seen, metres."""
+    seen = np.array([r["seen_turn"][girth] for r in rows], dtype=float)
+    off = np.array([r["truth"][girth] for r in rows]) - seen
+    return off[np.isfinite(off)]
+
+
+def learn(rows):
+    out = {}
+    for clothes, chosen in (("any", rows), ("tight", [r for r in rows if tight(r)])):
+        out[clothes] = {}
+        for sex, letter in SEXES.items():
+            own = [r for r in chosen if r["sex"] == letter]
+            out[clothes][sex] = {}
+            for girth in GIRTHS:
+                off = errors_of(own, girth)
+                offset = float(np.median(off))
+                sigma = float(np.quantile(np.abs(off - offset), 0.9)) / 1.645
+                out[clothes][sex][girth] = {"offset": round(offset, 4), "sigma": round(sigma, 4)}
+                print(
+                    f"{clothes:6}{sex:8}{girth:15}{len(off):5} scans: offset {1000 * offset:6.1f}, "
+                    f"sigma {1000 * sigma:5.1f} mm"
+                )
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("scans", nargs="+", help="JSON lines of vfit-bench scan-features --turn")
+    parser.add_argument("--model", required=True, help="the model to change (assets/measures.json)")
+    arguments = parser.parse_args()
+    rows = [r for r in read(arguments.scans) if r.get("seen_turn")]
+    if not rows:
+        raise SystemExit("no scan shows a turn: scan-features --turn")
+    with open(arguments.model) as file:
+        model = json.load(file)
+    model["turn"] = learn(rows)
+    model["version"] = 6
+    with open(arguments.model, "w") as file:
+        file.write(json.dumps(model, separators=(",", ":")) + "\n")
+
+
+if __name__ == "__main__":
+    main()
