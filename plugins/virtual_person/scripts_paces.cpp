@@ -53,7 +53,7 @@ Script spin_script() {
 Script round_script(float arms_deg) {
     constexpr float step_s = 0.40f;
     constexpr int pairs = 12;
-    return {[arms_deg, plan = round_steps(pairs, step_s, 0.34f, 0.25f)](float t) {
+    return {[arms_deg, plan = round_steps(pairs, step_s, 0.30f, 0.25f)](float t) {
                 Figure f = on_steps(plan, t);
                 for (const int side : {kLeft, kRight})
                     set_arm(f.rotation, side, {arms_deg + 2 * wave(1.0f / (2 * step_s), t), 0, 6, 0});

@@ -17,6 +17,7 @@ constexpr float kJointsSlack_rad = 0.1f;  // joints tell less well than the fitt
 // From a hand to the hip joint of its side, across: nearer, and the arm hides the trunk's outline.
 constexpr float kArmsOut_m = 0.14f;
 constexpr float kFastestTurn = 2.6f;   // radians a second; at a pace of 8 s a turn small steps reach 1.6
+constexpr float kSpeedOver_s = 0.2f;   // a fitted body's direction wavers by some degrees
 constexpr uint32_t kFramesOfWay = 15;  // of a turn: the person stands still
 constexpr int kFewestWays = TurnRing::kWays / 2;  // outlines from behind are those from the front
 
@@ -51,7 +52,7 @@ void PersonScan::reset() {
     ring_.reset();
     if (before_turn_) wipe(*before_turn_);
     before_turn_.reset();
-    turned_rad_ = 0.0f, turned_ns_ = 0;
+    turned_rad_ = 0.0f, turned_ns_ = 0, fast_ = false;
 }
 
 void PersonScan::extend(uint32_t frames, uint32_t side_frames) {
@@ -78,11 +79,13 @@ vfit_guidance PersonScan::turn(const ScanFrame& frame) {
     if (!before_turn_) before_turn_ = body_->features(with_side());
     const auto turned = body_->fit_turning(frame.image, *frame.body);
     if (!turned) return VFIT_GUIDANCE_HOLD_STILL;
-    const float step = std::remainder(*turned - turned_rad_, 2.0f * kPi);
     const float seconds = float(double(frame.body->time_ns - turned_ns_) * 1e-9);
-    const bool fast = turned_ns_ != 0 && seconds > 0.0f && std::abs(step) > kFastestTurn * seconds;
-    turned_rad_ = *turned, turned_ns_ = frame.body->time_ns;
-    if (fast) return VFIT_GUIDANCE_TURN_SLOWER;
+    if (turned_ns_ == 0 || !(seconds >= 0.0f && seconds < kSpeedOver_s)) {
+        const float step = std::remainder(*turned - turned_rad_, 2.0f * kPi);
+        fast_ = turned_ns_ != 0 && seconds > 0.0f && std::abs(step) > kFastestTurn * seconds;
+        turned_rad_ = *turned, turned_ns_ = frame.body->time_ns;
+    }
+    if (fast_) return VFIT_GUIDANCE_TURN_SLOWER;
     const int way = TurnRing::way_of(*turned);
     if (ring_.frames(way) >= kFramesOfWay) return VFIT_GUIDANCE_TURN_ROUND;
     body_->keep_turning(frame.image, *frame.body);

@@ -82,8 +82,9 @@ private:
     // Of the views before the turn: the body goes on being fitted to all of it, and measures have not learnt
     // what that does to its shape.
     std::optional<ScanFeatures> before_turn_;
-    float turned_rad_ = 0.0f;  // in the last frame of the turn
-    int64_t turned_ns_ = 0;    // 0: none yet
+    float turned_rad_ = 0.0f;  // where the speed of the turn is counted from
+    int64_t turned_ns_ = 0;    // 0: nowhere yet
+    bool fast_ = false;
 };
 
 }  // namespace vfit

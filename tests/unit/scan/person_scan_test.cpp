@@ -77,7 +77,7 @@ TEST_F(PersonScanTest, LeadsOnceRound) {
         return standing_person(avatar_, stance);
     };
     bool slower = false;
-    for (const float rad : {0.1f, 0.25f, 0.4f, 0.55f})
+    for (const float rad : {0.1f, 0.25f, 0.4f, 0.55f, 0.7f, 0.85f, 1.0f, 1.15f, 1.3f, 1.45f})
         slower |= add(scan, turned(rad)).guidance == VFIT_GUIDANCE_TURN_SLOWER;
     EXPECT_TRUE(slower) << "0.15 radians a frame are 4.5 a second";
     for (int way = 0; way < 23; ++way) {
