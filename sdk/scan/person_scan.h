@@ -52,7 +52,8 @@ public:
     uint32_t turn_seen() const { return ring_.seen(); }
     uint32_t turn_wanted() const { return body_ && desc_.turn ? TurnRing::kAll : 0; }
     bool complete() const {
-        return paper_.complete() && side_frames_ >= side_frames_wanted() && turn_seen() == turn_wanted();
+        return paper_.complete() && side_frames_ >= side_frames_wanted() &&
+               (turn_wanted() == 0 || ring_.complete());
     }
 
     /// No frame from the front yet: VFIT_ERROR_STATE.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -28,6 +29,13 @@ public:
         for (int way = 0; way < kWays; ++way)
             if (frames(way)) bits |= uint32_t{1} << way;
         return bits;
+    }
+    /// Nearly all ways have been seen, and of each way it or the opposite one: the outline from behind is
+    /// that from the front, and nobody shall turn again for a frame that was not good.
+    bool complete() const {
+        constexpr int kEnough = kWays * 5 / 6;
+        const uint32_t bits = seen(), opposite = (bits >> (kWays / 2) | bits << (kWays / 2)) & kAll;
+        return std::popcount(bits) >= kEnough && (bits | opposite) == kAll;
     }
     void reset() { frames_ = {}; }
 

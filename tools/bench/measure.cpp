@@ -97,7 +97,7 @@ public:
     bool all_round(const PersonOfPopulation& person) {
         if (!turn_) return side(person);
         play(scene_.turn_uri(person), false);
-        if (state_.turn_seen == state_.turn_wanted) return true;
+        if (result_ == VFIT_OK) return true;
         std::cerr << "no whole turn: " << guidance_text(state_.guidance) << ": " << scene_.turn_uri(person)
                   << "\n";
         return false;
@@ -124,7 +124,7 @@ private:
             const auto bodies = bodies_of(tracked.get());
             if (bodies.empty()) continue;
             const uint32_t body = bodies.front().body_id;
-            check(vfit_scan_add(fit_.get(), tracked.get(), body, &state_));
+            result_ = check(vfit_scan_add(fit_.get(), tracked.get(), body, &state_));
             check(vfit_scan_add(told_.get(), tracked.get(), body, nullptr));
             if (front) check(vfit_scan_add(paper_.get(), tracked.get(), body, nullptr));
         }
@@ -136,6 +136,7 @@ private:
     Tracker tracker_;
     Scan fit_, told_, paper_;
     vfit_scan_state state_ = vfit_scan_state_init();
+    vfit_result result_ = VFIT_NOT_READY;  // of the last frame
 };
 
 /// By sex, BMI, stature and sensor.

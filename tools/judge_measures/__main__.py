@@ -27,6 +27,7 @@ from renderer import Camera, room_depth, see, sense  # noqa: E402
 MEASURES = ("stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m")
 FRONT_FRAMES, SIDE_FRAMES, STILL_FRAMES = 45, 45, 20  # the tracker sees the room first
 TURN_FRAMES = 160  # once round
+TURNED = 5 / 6  # of the ways to face: then a turn is complete
 GIRTHS, DEPTHS = (0.92, 1.0, 1.08, 1.18), (1.0, 0.95, 1.08)
 STATURES_M = {"f": (1.52, 1.60, 1.68, 1.76), "m": (1.65, 1.73, 1.81, 1.90)}
 SENSORS = [(512, 424, 366.0), (640, 480, 525.0)]  # Kinect v2; of the field of view of Kinect v1
@@ -115,7 +116,7 @@ def measured(vfit, folder, flags):
     if done.returncode:
         return None, done.stderr.strip()
     out = json.loads(done.stdout)
-    if out["method"] != "fit" or not (out.get("side_frames") or out.get("turned", 0) == 1):
+    if out["method"] != "fit" or not (out.get("side_frames") or out.get("turned", 0) >= TURNED):
         return None, "no side view, or no whole turn: " + out.get("note", "")
     return out["measurements"], ""
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "avatar/avatar_measures.h"
 #include "scan/seen_measures.h"
@@ -68,8 +70,23 @@ TEST(TurnRing, CountsWaysToThePersonsLeft) {
         ring.add(way);
     }
     EXPECT_EQ(ring.seen(), TurnRing::kAll);
+    EXPECT_TRUE(ring.complete());
     ring.reset();
     EXPECT_EQ(ring.seen(), 0u);
+    EXPECT_FALSE(ring.complete());
+}
+
+TEST(TurnRing, IsCompleteWhereTheOppositeOfWhatIsMissingWasSeen) {
+    const auto without = [](std::initializer_list<int> missing) {
+        TurnRing ring;
+        for (int way = 0; way < TurnRing::kWays; ++way)
+            if (std::find(missing.begin(), missing.end(), way) == missing.end()) ring.add(way);
+        return ring.complete();
+    };
+    EXPECT_TRUE(without({3, 4}));
+    EXPECT_TRUE(without({0, 1, 2, 3}));
+    EXPECT_FALSE(without({0, 1, 2, 3, 4})) << "too many";
+    EXPECT_FALSE(without({5, 17})) << "opposite each other";
 }
 
 }  // namespace
