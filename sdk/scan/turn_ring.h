@@ -31,7 +31,7 @@ public:
         return bits;
     }
     /// Nearly all ways have been seen, and of each way it or the opposite one: the outline from behind is
-    /// that from the front, and nobody shall turn again for a frame that was not good.
+    /// that from the front, and one frame that was not good is no reason to turn again.
     bool complete() const {
         constexpr int kEnough = kWays * 5 / 6;
         const uint32_t bits = seen(), opposite = (bits >> (kWays / 2) | bits << (kWays / 2)) & kAll;
