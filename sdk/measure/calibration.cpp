@@ -15,7 +15,11 @@ constexpr const char* kFormat = "vfit-calibration";
 constexpr int kVersion = 1;
 constexpr double kLevel = 0.9;
 constexpr float kOfLevel = 1.645f;  // sigmas, of a normal distribution
-constexpr size_t kMostPeople = 100000;
+constexpr size_t kMostPeople = 10000;
+// Of an error, metres or kilograms; of a sigma, that a ratio to it is a number.
+constexpr float kLargestError = 1000.0f, kSmallestSigma = 1e-6f;
+// Of sigma, which is 0 only where it is unknown: twenty equal errors are no proof of perfect scans.
+constexpr float kLeastWidening = 0.1f;
 
 float median(std::vector<float> values) {
     std::sort(values.begin(), values.end());
@@ -42,10 +46,17 @@ void Calibration::add(const std::vector<Measurement>& scanned, const std::vector
     std::vector<std::pair<const Measurement*, const Measurement*>> pairs;
     for (const Measurement& tape : taped)
         if (const Measurement* scan = find(scanned, tape.key)) pairs.emplace_back(scan, &tape);
+    for (size_t i = 0; i < pairs.size(); ++i)
+        for (size_t k = 0; k < i; ++k)
+            if (pairs[i].second->key == pairs[k].second->key)
+                fail(VFIT_ERROR_DATA, "calibration: the tape tells ", pairs[i].second->key, " twice");
     if (pairs.empty()) fail(VFIT_ERROR_DATA, "calibration: scan and tape have no measure in common");
     for (const auto& [scan, tape] : pairs)
-        if (!(scan->sigma > 0.0f))
-            fail(VFIT_ERROR_DATA, "calibration: ", scan->key, " of the scan has no sigma");
+        if (!(scan->sigma >= kSmallestSigma && scan->sigma <= kLargestError))
+            fail(VFIT_ERROR_DATA, "calibration: ", scan->key,
+                 " of the scan has no sigma, or one that is not "
+                 "plausible: ",
+                 scan->sigma);
     for (const auto& [scan, tape] : pairs)
         of(scan->key).list.push_back({tape->value - scan->value, scan->sigma});
     ++people_;
@@ -61,7 +72,7 @@ CalibratedMeasure Calibration::measure_of(const Errors& errors) {
         scores.push_back(std::abs(errors.list[i].apart - out.offset) / errors.list[i].sigma);
     std::sort(scores.begin(), scores.end());
     const auto place = size_t(std::ceil(kLevel * double(scores.size() + 1)));
-    out.widening = scores[std::min(place, scores.size()) - 1] / kOfLevel;
+    out.widening = std::max(kLeastWidening, scores[std::min(place, scores.size()) - 1] / kOfLevel);
     out.enough = true;
     return out;
 }
@@ -116,8 +127,10 @@ Calibration Calibration::parse(std::string_view json) {
             const Json& one = item.is_object() ? item : empty;
             const Error error{number(one.value("error", Json()), key + ": an error"),
                               number(one.value("sigma", Json()), key + ": a sigma")};
-            if (!(error.sigma > 0.0f))
-                fail(VFIT_ERROR_DATA, "calibration: ", key, ": a sigma is not above 0");
+            if (!(error.sigma >= kSmallestSigma && error.sigma <= kLargestError))
+                fail(VFIT_ERROR_DATA, "calibration: ", key, ": a sigma is not above 0, or too large");
+            if (!(std::abs(error.apart) <= kLargestError))
+                fail(VFIT_ERROR_DATA, "calibration: ", key, ": an error of ", error.apart, " is no person's");
             out.of(key).list.push_back(error);
         }
     }

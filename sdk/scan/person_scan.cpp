@@ -102,6 +102,7 @@ vfit_guidance PersonScan::fit(const ScanFrame& frame) {
     if (side && side_frames_ >= side_frames_wanted()) return VFIT_GUIDANCE_FACE_CAMERA;
     if (front && !arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
     if (body_->add(frame.image, *frame.body) != seen) return VFIT_GUIDANCE_HOLD_STILL;
+    before_turn_.reset();  // extend() asked for more after a turn
     if (front)
         paper_.take(frame);
     else

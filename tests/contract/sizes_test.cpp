@@ -101,6 +101,7 @@ TEST_F(SizesTest, ScansAreCalibratedToATape) {
         vfit_calibration_apply(text.data(), text.size(), &scan, sizeof scan, 1, &out, sizeof out, &count),
         VFIT_OK);
     EXPECT_NEAR(out.value, 0.82f, 1e-5f);
+    EXPECT_GT(out.sigma, 0.0f) << "0 is unknown";
     EXPECT_EQ(add(scan, measurement("hip_girth_m", 1.0f, 0.0f)), VFIT_ERROR_DATA);
     EXPECT_NE(contract::last_error().find("in common"), std::string::npos);
     EXPECT_EQ(vfit_calibration_measures("{}", 2, &told, sizeof told, &count), VFIT_ERROR_DATA);

@@ -239,8 +239,8 @@ void run(const Options& o) {
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
     std::vector<MeasureSet> sets = {{"varied", BodySpace::kVaried, Dress::kTight},
                                     {"varied clothed", BodySpace::kVaried, Dress::kClothed},
-                                    {"varied turn", BodySpace::kVaried, Dress::kTight, true},
-                                    {"varied turn clothed", BodySpace::kVaried, Dress::kClothed, true},
+                                    {"turn", BodySpace::kVaried, Dress::kTight, true},
+                                    {"turn clothed", BodySpace::kVaried, Dress::kClothed, true},
                                     {"in space", BodySpace::kInside, Dress::kTight},
                                     {"off space", BodySpace::kOutside, Dress::kTight},
                                     {"clothed", BodySpace::kOutside, Dress::kClothed}};
@@ -296,7 +296,7 @@ void add_measure(Command& app) {
     command.add_option("--first", o->first, "Number of the first");
     command.add_option("--seed", o->seed, "Of the population; those of training are 1000 and above");
     command.add_option("--only", o->only,
-                       "Sets whose name begins so: varied, varied clothed, varied turn, varied turn clothed, "
+                       "Sets whose name begins so: varied, varied clothed, turn, turn clothed, "
                        "in space, off space, clothed, repeated "
                        "(in space, off space, in clothes)");
     command.add_flag("--told-sex", o->told_sex, "Tell the scan the person's sex");

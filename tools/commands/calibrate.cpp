@@ -36,10 +36,15 @@ std::string added(const std::string& text, const std::vector<vfit_measurement>& 
 
 Json calibrate(const Options& o) {
     std::string text;
-    if (std::filesystem::exists(o.calibration)) text = read_text(o.calibration);
+    std::error_code error;
+    if (std::filesystem::exists(o.calibration, error)) text = read_text(o.calibration);
     if (!o.scan.empty()) {
         text = added(text, read_measures(o.scan).measurements, read_measures(o.tape).measurements);
-        write_text(o.calibration, text);
+        // Whole or not at all: a shop's work of weeks is in it.
+        const std::string fresh = o.calibration + ".new";
+        write_text(fresh, text);
+        std::filesystem::rename(fresh, o.calibration, error);
+        if (error) throw Failure(o.calibration + ": cannot be written: " + error.message());
     } else if (text.empty()) {
         throw Failure(o.calibration + ": there is no such file");
     }

@@ -46,8 +46,9 @@ Json measure(const Options& options) {
     if (run.method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
     if (options.turn) out["turned"] = double(std::popcount(run.turn_seen)) / double(VFIT_TURN_WAYS);
     std::vector<vfit_measurement> measured = measurements_of(run.scan.get());
-    if (!options.merged.empty()) measured = merged_measurements(earlier, measured);
+    // Before the merge: what is kept of an earlier scan has been calibrated already.
     if (!options.calibration.empty()) measured = calibrated_measurements(calibration, measured);
+    if (!options.merged.empty()) measured = merged_measurements(earlier, measured);
     if (!options.own.empty()) {
         Avatar avatar;
         check(vfit_avatar_create_from_scan(context.get(), nullptr, run.scan.get(), avatar.out()));

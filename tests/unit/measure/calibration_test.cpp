@@ -118,11 +118,25 @@ TEST(Calibration, SaysWhatIsWrong) {
     refused(file(R"("people": 1, "measures": {"stature_m": [{"error": 1}]})"), VFIT_ERROR_DATA, "sigma");
     refused(file(R"("people": 1, "measures": {"stature_m": [{"error": 1, "sigma": 0}]})"), VFIT_ERROR_DATA,
             "above 0");
+    refused(file(R"("people": 1, "measures": {"stature_m": [{"error": 3e38, "sigma": 1}]})"), VFIT_ERROR_DATA,
+            "no person's");
+    refused(file(R"("people": 1, "measures": {"stature_m": [{"error": 1, "sigma": 1e-38}]})"),
+            VFIT_ERROR_DATA, "above 0");
+    refused(file(R"("people": 20000, "measures": {})"), VFIT_ERROR_DATA, "people");
     Calibration calibration;
     const Measurement scan{"waist_girth_m", 0.8f, 0.01f, true}, other{"hip_girth_m", 1.0f, 0.0f, true};
     EXPECT_THROW(calibration.add({scan}, {other}), Error);
     EXPECT_THROW(calibration.add({other}, {other}), Error) << "a scan without sigma";
+    EXPECT_THROW(calibration.add({scan}, {scan, scan}), Error) << "twice: what is written must be read again";
+    EXPECT_THROW(calibration.add({{"waist_girth_m", 0.8f, 1e-30f, true}}, {scan}), Error);
     EXPECT_EQ(calibration.people(), 0u);
+}
+
+TEST(Calibration, ASigmaThatIsKnownStaysAboveZero) {
+    Calibration calibration;
+    for (uint32_t i = 0; i < Calibration::kFewestPeople; ++i)
+        calibration.add({{"waist_girth_m", 0.8f, 0.01f, true}}, {{"waist_girth_m", 0.8f, 0.0f, true}});
+    EXPECT_GT(calibration.apply({{"waist_girth_m", 0.9f, 0.01f, true}})[0].sigma, 0.0005f);
 }
 
 }  // namespace

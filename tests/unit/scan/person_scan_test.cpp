@@ -98,6 +98,13 @@ TEST_F(PersonScanTest, LeadsOnceRound) {
         EXPECT_NEAR(m->value, find(tape, key)->value, std::min(0.03f, 3.0f * m->sigma)) << key;
     }
     EXPECT_LT(find(scan.measurements(), "waist_girth_m")->sigma, before) << "all around tells more";
+    const float stature = find(scan.measurements(), "stature_m")->value;
+    scan.extend(2, 0);
+    EXPECT_FALSE(scan.complete());
+    time_ns_ += 2'000'000'000;
+    for (int i = 0; i < 10 && !scan.complete(); ++i) add(scan, front_);
+    EXPECT_TRUE(scan.complete()) << "the turn need not be made again";
+    EXPECT_NE(find(scan.measurements(), "stature_m")->value, stature) << "the new frames count";
     scan.reset();
     EXPECT_EQ(scan.turn_seen(), 0u);
 }
