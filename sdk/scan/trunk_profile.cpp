@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/wipe.h"
+#include "scan/trunk_lines.h"
 
 namespace vfit {
 
@@ -32,24 +33,14 @@ TrunkProfile::Reaches TrunkProfile::reaches_m(ViewKind view, int level) const {
 }
 
 void TrunkProfile::add(const DepthImage& image, uint8_t user, const BodyFit& fit, ViewKind view) {
-    const auto& joints = fit.body().joints();
-    const Vec3 hips = 0.5f * (joints[VFIT_JOINT_LEFT_HIP] + joints[VFIT_JOINT_RIGHT_HIP]);
-    const Vec3 spine = joints[VFIT_JOINT_NECK] - hips;
-    const Vec3 ahead = fit.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
+    const TrunkLines lines(image, user, fit);
     const Camera& camera = image.camera;
-    const auto reading = [&](const Vec2& p) {  // 0: not the person's
-        const int x = int(std::lround(p.x)), y = int(std::lround(p.y));
-        if (x < 0 || y < 0 || x >= int(image.width()) || y >= int(image.height())) return 0.0f;
-        const size_t i = image.index(uint32_t(x), uint32_t(y));
-        return image.users[i] == user ? image.metres(i) : 0.0f;
-    };
+    const auto reading = [&](const Vec2& p) { return lines.reading(p); };
     for (int l = 0; l < kLevels; ++l) {
-        const Vec3 centre = hips + along(l) * spine;
-        if (centre.z < 0.5f) continue;
-        const Vec2 at = camera.project(centre), along = camera.project(centre + 0.1f * spine) - at;
-        const float length = glm::length(along);
-        if (!(length > 1.0f)) continue;
-        const Vec2 across = Vec2(-along.y, along.x) / length;
+        const auto line = lines.line(along(l));
+        if (!line) continue;
+        const Vec3 centre = line->centre;
+        const Vec2 at = line->at, across = line->across;
         const float pixel_m = centre.z / camera.fx;
         const float surface = reading(at);
         if (surface == 0.0f) continue;
@@ -91,7 +82,7 @@ void TrunkProfile::add(const DepthImage& image, uint8_t user, const BodyFit& fit
             }
         };
         // Which way is ahead in the picture?
-        const bool one_ahead = glm::dot(camera.project(centre + 0.1f * ahead) - at, across) > 0.0f;
+        const bool one_ahead = glm::dot(camera.project(centre + 0.1f * lines.ahead()) - at, across) > 0.0f;
         add_side(1.0f, view == ViewKind::kFront || one_ahead ? kAhead : kBehind);
         add_side(-1.0f, view == ViewKind::kFront || !one_ahead ? kAhead : kBehind);
     }

@@ -6,6 +6,7 @@
 
 #include "core/wipe.h"
 #include "scan/even_waves.h"
+#include "scan/trunk_lines.h"
 
 namespace vfit {
 
@@ -72,28 +73,18 @@ float TurnBreadths::girth_m(int level) const {
 }
 
 void TurnBreadths::add(const DepthImage& image, uint8_t user, const BodyFit& fit) {
-    const auto& joints = fit.body().joints();
-    const Vec3 hips = 0.5f * (joints[VFIT_JOINT_LEFT_HIP] + joints[VFIT_JOINT_RIGHT_HIP]);
-    const Vec3 spine = joints[VFIT_JOINT_NECK] - hips;
-    const Vec3 ahead = fit.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
+    const TrunkLines lines(image, user, fit);
     const Camera& camera = image.camera;
-    const Arms arms(camera, joints);
-    const float turn = std::atan2(ahead.x, -ahead.z) / kPi;  // half turns
+    const Arms arms(camera, fit.body().joints());
+    const float turn = std::atan2(lines.ahead().x, -lines.ahead().z) / kPi;  // half turns
     const float part = turn - std::floor(turn);
     const size_t direction = size_t(std::lround(part * kDirections)) % kDirections;
-    const auto reading = [&](const Vec2& p) {  // 0: not the person's
-        const int x = int(std::lround(p.x)), y = int(std::lround(p.y));
-        if (x < 0 || y < 0 || x >= int(image.width()) || y >= int(image.height())) return 0.0f;
-        const size_t i = image.index(uint32_t(x), uint32_t(y));
-        return image.users[i] == user ? image.metres(i) : 0.0f;
-    };
+    const auto reading = [&](const Vec2& p) { return lines.reading(p); };
     for (int l = 0; l < kLevels; ++l) {
-        const Vec3 centre = hips + TrunkProfile::along(l) * spine;
-        if (centre.z < 0.5f) continue;
-        const Vec2 at = camera.project(centre), along = camera.project(centre + 0.1f * spine) - at;
-        const float length = glm::length(along);
-        if (!(length > 1.0f)) continue;
-        const Vec2 across = Vec2(-along.y, along.x) / length;
+        const auto line = lines.line(TrunkProfile::along(l));
+        if (!line) continue;
+        const Vec3 centre = line->centre;
+        const Vec2 at = line->at, across = line->across;
         if (reading(at) == 0.0f) continue;
         const int reach_px = int(kWidest_m * camera.fx / centre.z);
         // How far the line of sight along the outline passes from the spine.
