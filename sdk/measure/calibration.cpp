@@ -19,7 +19,7 @@ constexpr size_t kMostPeople = 10000;
 // Of an error, metres or kilograms; of a sigma, that a ratio to it is a number.
 constexpr float kLargestError = 1000.0f, kSmallestSigma = 1e-6f;
 // Of sigma, which is 0 only where it is unknown: twenty equal errors are no proof of perfect scans.
-constexpr float kLeastWidening = 0.1f;
+constexpr float kMinWidening = 0.1f;
 
 float median(std::vector<float> values) {
     std::sort(values.begin(), values.end());
@@ -72,7 +72,7 @@ CalibratedMeasure Calibration::measure_of(const Errors& errors) {
         scores.push_back(std::abs(errors.list[i].apart - out.offset) / errors.list[i].sigma);
     std::sort(scores.begin(), scores.end());
     const auto place = size_t(std::ceil(kLevel * double(scores.size() + 1)));
-    out.widening = std::max(kLeastWidening, scores[std::min(place, scores.size()) - 1] / kOfLevel);
+    out.widening = std::max(kMinWidening, scores[std::min(place, scores.size()) - 1] / kOfLevel);
     out.enough = true;
     return out;
 }
