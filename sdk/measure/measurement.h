@@ -19,5 +19,6 @@ inline const Measurement* find(const std::vector<Measurement>& list, const std::
         if (m.key == key) return &m;
     return nullptr;
 }
+const Measurement* find(std::vector<Measurement>&&, const std::string&) = delete;  // of a list that dies
 
 }  // namespace vfit

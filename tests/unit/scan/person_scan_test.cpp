@@ -41,6 +41,12 @@ protected:
         return scan.add({scene.image(), &body, 1});
     }
 
+    static Measurement measured(const PersonScan& scan, const char* key) {
+        const auto all = scan.measurements();
+        const Measurement* one = find(all, key);
+        return one ? *one : Measurement{};
+    }
+
     Avatar avatar_{body_model(), {}, shape_of({}), Vec2(1.0f)};
     const FitScene front_ = standing_person(avatar_), side_ = standing_person(avatar_, sideways());
     int64_t time_ns_ = 0;
@@ -71,7 +77,7 @@ TEST_F(PersonScanTest, LeadsOnceRound) {
     EXPECT_EQ(add(scan, front_).guidance, VFIT_GUIDANCE_TURN_ROUND) << "stands still";
     time_ns_ += 1'000'000'000;
     EXPECT_EQ(add(scan, standing_person(avatar_, {0.6f, 0.05f})).guidance, VFIT_GUIDANCE_ARMS_OUT);
-    const float before = find(scan.measurements(), "waist_girth_m")->sigma;
+    const float before = measured(scan, "waist_girth_m").sigma;
     const auto turned = [&](float rad) {
         Stance stance;
         stance.turned_rad = rad, stance.arms_rad = 0.75f;
@@ -94,17 +100,17 @@ TEST_F(PersonScanTest, LeadsOnceRound) {
     EXPECT_TRUE(scan.complete());
     const auto tape = measure_avatar(avatar_, VFIT_SEX_FEMALE);
     for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"}) {
-        const Measurement* m = find(scan.measurements(), key);
-        EXPECT_NEAR(m->value, find(tape, key)->value, std::min(0.03f, 3.0f * m->sigma)) << key;
+        const Measurement m = measured(scan, key);
+        EXPECT_NEAR(m.value, find(tape, key)->value, std::min(0.03f, 3.0f * m.sigma)) << key;
     }
-    EXPECT_LT(find(scan.measurements(), "waist_girth_m")->sigma, before) << "all around tells more";
-    const float stature = find(scan.measurements(), "stature_m")->value;
+    EXPECT_LT(measured(scan, "waist_girth_m").sigma, before) << "all around tells more";
+    const float stature = measured(scan, "stature_m").value;
     scan.extend(2, 0);
     EXPECT_FALSE(scan.complete());
     time_ns_ += 2'000'000'000;
     for (int i = 0; i < 10 && !scan.complete(); ++i) add(scan, front_);
     EXPECT_TRUE(scan.complete()) << "the turn need not be made again";
-    EXPECT_NE(find(scan.measurements(), "stature_m")->value, stature) << "the new frames count";
+    EXPECT_NE(measured(scan, "stature_m").value, stature) << "the new frames count";
     scan.reset();
     EXPECT_EQ(scan.turn_seen(), 0u);
 }
@@ -208,7 +214,7 @@ TEST_F(PersonScanTest, AllowsForHairAndShoesUnlessThereAreNone) {
     as_they_are.bare = false;
     PersonScan a(bare), b(as_they_are);
     for (int i = 0; i < 2; ++i) add(a, front_), add(b, front_);
-    const auto sigma = [](const PersonScan& scan) { return find(scan.measurements(), "stature_m")->sigma; };
+    const auto sigma = [](const PersonScan& scan) { return measured(scan, "stature_m").sigma; };
     EXPECT_NEAR(sigma(b), std::hypot(sigma(a), 0.015f), 1e-4f);
 }
 
