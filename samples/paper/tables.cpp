@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "client/people.h"
-#include "measure/proportions.h"
 #include "paper.h"
+#include "paper/proportions.h"
 #include "population/library_file.h"
 #include "subjects.h"
 
@@ -83,7 +83,7 @@ void print_table_1() {
     std::cout
         << "Table 1. Body proportions in heads (widths in head widths); numbers as in Fig. 4. The printed "
            "first column is\n"
-           "lost in the text that this follows and was reconstructed (sdk/measure/proportions.h)\n"
+           "lost in the text that this follows and was reconstructed (sdk/paper/proportions.h)\n"
         << "      line                  canon (the paper's)  women  men (ANSUR II, Drillis and Contini)\n";
     for (size_t i = 0; i < kLineCount; ++i) {
         const auto line = static_cast<Line>(i);

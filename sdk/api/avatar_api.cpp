@@ -1,13 +1,13 @@
 // vfit.h, part "avatar".
 #include <cmath>
 
+#include "anthropometry/own_measures.h"
 #include "api/avatar_object.h"
 #include "api/bodies.h"
 #include "api/guard.h"
 #include "api/measurements.h"
 #include "api/scan_object.h"
 #include "avatar/gltf_document.h"
-#include "measure/own_measures.h"
 #include "scan/scanned_body.h"
 
 using namespace vfit;

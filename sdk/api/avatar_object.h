@@ -1,11 +1,11 @@
 // The object behind vfit_avatar.
 #pragma once
 
+#include "anthropometry/measurement.h"
 #include "api/mesh_frame.h"
 #include "avatar/avatar.h"
 #include "avatar/character.h"
 #include "avatar/packed_body.h"
-#include "measure/measurement.h"
 #include "outfit/outfit_skin.h"
 #include "outfit/wearer.h"
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "anthropometry/measurement.h"
 #include "api/access.h"
 #include "body/body_model.h"
 #include "core/jobs.h"
@@ -14,7 +15,6 @@
 #include "fit/fit_model.h"
 #include "frame/axes.h"
 #include "frame/frame.h"
-#include "measure/measurement.h"
 #include "scan/measure_model.h"
 #include "sensor/plugin_host.h"
 #include "vfit.h"

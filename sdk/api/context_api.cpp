@@ -1,11 +1,11 @@
 // vfit.h, part "context" and the vocabularies.
+#include "anthropometry/measure_keys.h"
 #include "api/context.h"
 #include "api/guard.h"
 #include "api/structs.h"
 #include "body/skeleton.h"
 #include "core/clock.h"
 #include "math/simd.h"
-#include "measure/measure_keys.h"
 
 using namespace vfit;
 using namespace vfit::api;

@@ -1,6 +1,6 @@
 #include "api/measurements.h"
 
-#include "measure/measurement_check.h"
+#include "anthropometry/measurement_check.h"
 
 namespace vfit::api {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "anthropometry/measurement.h"
 #include "api/structs.h"
-#include "measure/measurement.h"
 
 namespace vfit::api {
 

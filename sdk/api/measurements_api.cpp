@@ -1,11 +1,11 @@
 // vfit.h, part "scan -> measurements -> size": measurements that an app keeps.
 #include <algorithm>
 
+#include "anthropometry/calibration.h"
+#include "anthropometry/profile.h"
 #include "api/guard.h"
 #include "api/measurements.h"
 #include "core/wipe.h"
-#include "measure/calibration.h"
-#include "measure/profile.h"
 
 using namespace vfit;
 using namespace vfit::api;

@@ -5,7 +5,7 @@
 #include "avatar/avatar.h"
 #include "body/joint_bones.h"
 #include "core/error.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 

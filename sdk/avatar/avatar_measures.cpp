@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/tape.h"
-#include "measure/tape_landmarks.h"
+#include "anthropometry/tape.h"
+#include "anthropometry/tape_landmarks.h"
 
 namespace vfit {
 

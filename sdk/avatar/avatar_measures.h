@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "anthropometry/measurement.h"
 #include "avatar/avatar.h"
-#include "measure/measurement.h"
 
 namespace vfit {
 

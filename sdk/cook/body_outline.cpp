@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "measure/section.h"
+#include "geometry/section.h"
 
 namespace vfit {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "body/body_model.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 

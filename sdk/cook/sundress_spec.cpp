@@ -1,10 +1,10 @@
 // Reads the design parameters of a sundress.
 #include <cmath>
 
+#include "anthropometry/measure_keys.h"
 #include "cook/sundress.h"
 #include "core/error.h"
 #include "core/json.h"
-#include "measure/measure_keys.h"
 
 namespace vfit {
 

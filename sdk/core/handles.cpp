@@ -39,7 +39,7 @@ struct Slot {
 const char* kind_name(Kind kind) {
     constexpr const char* names[] = {"null",  "context",    "sensor", "frame",  "tracker",
                                      "scan",  "size chart", "motion", "avatar", "garment",
-                                     "cloth", "recorder",   "prop"};
+                                     "cloth", "recorder",   "prop",   "population"};
     const auto i = static_cast<size_t>(kind);
     return i < std::size(names) ? names[i] : "unknown";
 }

@@ -22,7 +22,8 @@ enum class Kind : uint8_t {
     garment,
     cloth,
     recorder,
-    prop
+    prop,
+    population
 };
 
 const char* kind_name(Kind kind);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cloth/garment/garment.h"
+#include "geometry/mesh_query.h"
 #include "math/types.h"
-#include "measure/mesh_query.h"
 
 namespace vfit {
 

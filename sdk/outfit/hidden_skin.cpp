@@ -6,7 +6,7 @@
 #include <queue>
 
 #include "body/mesh.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 

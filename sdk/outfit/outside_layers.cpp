@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 

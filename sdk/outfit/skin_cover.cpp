@@ -6,7 +6,7 @@
 #include "body/mesh.h"
 #include "cloth/contact/contact.h"
 #include "cloth/garment/carried.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 

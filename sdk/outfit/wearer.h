@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "anthropometry/measurement.h"
 #include "avatar/avatar.h"
 #include "avatar/skin.h"
 #include "cloth/garment/dress.h"
-#include "measure/measurement.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 #include "outfit/contact_skin.h"
 #include "outfit/garment_fit.h"
 

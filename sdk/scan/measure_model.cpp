@@ -5,10 +5,10 @@
 #include <numeric>
 #include <tuple>
 
+#include "anthropometry/measure_keys.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
-#include "measure/measure_keys.h"
 
 namespace vfit {
 

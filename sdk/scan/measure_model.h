@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/measurement.h"
+#include "anthropometry/measurement.h"
 #include "scan/body_scan.h"
 #include "scan/radial_basis.h"
 #include "scan/seen_measures.h"

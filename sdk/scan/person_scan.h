@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "measure/paper_scan.h"
+#include "paper/paper_scan.h"
 #include "scan/body_scan.h"
 #include "scan/measure_model.h"
 #include "scan/turn_ring.h"

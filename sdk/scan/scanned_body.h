@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "anthropometry/measurement.h"
 #include "body/body_model.h"
 #include "fit/fit_model.h"
-#include "measure/measurement.h"
 #include "vfit.h"
 
 namespace vfit {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "measure/section.h"
+#include "geometry/section.h"
 
 namespace vfit {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "measure/tape_landmarks.h"
+#include "anthropometry/tape_landmarks.h"
 
 namespace vfit {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "measure/measurement.h"
+#include "anthropometry/measurement.h"
 #include "scan/seen_measures.h"
 #include "vfit.h"
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "anthropometry/measure_keys.h"
 #include "core/error.h"
-#include "measure/measure_keys.h"
 
 namespace vfit {
 

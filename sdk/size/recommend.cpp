@@ -5,9 +5,9 @@
 #include <limits>
 #include <map>
 
+#include "anthropometry/measure_keys.h"
 #include "core/error.h"
 #include "math/random.h"
-#include "measure/measure_keys.h"
 #include "size/measure_steps.h"
 
 namespace vfit {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/measurement.h"
+#include "anthropometry/measurement.h"
 #include "size/size_chart.h"
 
 namespace vfit {

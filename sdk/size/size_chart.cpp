@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "anthropometry/measure_keys.h"
 #include "core/error.h"
 #include "core/json.h"
-#include "measure/measure_keys.h"
 #include "size/printed_ranges.h"
 
 namespace vfit {

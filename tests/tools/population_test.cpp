@@ -115,8 +115,8 @@ TEST(BodyWithMeasures, ReachesAnotherGirthAtTheSameBreadthAndDepth) {
     }
 }
 
-TEST(Population, HasVeryHeavyPeopleAndHipsAsDeepAsTheSurveys) {
-    Population population(model(), BodySpace::kVaried, 9);
+TEST(VirtualPeople, HasVeryHeavyPeopleAndHipsAsDeepAsTheSurveys) {
+    VirtualPeople population(model(), BodySpace::kVaried, 9);
     const PersonOfPopulation person = population.draw(21);
     EXPECT_GT(person.bmi, 38.0);
     EXPECT_GT(person.measures.at("navel_girth_m"), 1.15);
@@ -129,8 +129,8 @@ TEST(Population, HasVeryHeavyPeopleAndHipsAsDeepAsTheSurveys) {
     EXPECT_NEAR(depth, 0.66, 0.04);
 }
 
-TEST(Population, GivesTheSamePersonForTheSameNumber) {
-    Population population(model(), BodySpace::kInside, 3);
+TEST(VirtualPeople, GivesTheSamePersonForTheSameNumber) {
+    VirtualPeople population(model(), BodySpace::kInside, 3);
     const PersonOfPopulation one = population.draw(4), other = population.draw(6), again = population.draw(4);
     EXPECT_EQ(one.options(), again.options()) << "whoever is drawn between";
     EXPECT_NE(one.options(), other.options());

@@ -8,7 +8,7 @@
 #include "bench/bench.h"
 #include "bench/drape_parts.h"
 #include "client/client.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit::tools {
 

@@ -37,6 +37,32 @@ vfit_measurement exactly(const char* key, const BodyMeasures& truth) {
     return m;
 }
 
+/// Height and weight as people type them: a centimetre and a kilogram off, in whole ones.
+std::vector<vfit_measurement> typed_by(const PersonOfPopulation& person, uint32_t seed) {
+    Random random(seed);
+    std::vector<vfit_measurement> out;
+    const auto type = [&](const char* key, double unit) {
+        vfit_measurement m = exactly(key, person.measures);
+        m.value = float(unit * std::round(double(m.value) / unit + double(random.normal())));
+        out.push_back(m);
+    };
+    type("stature_m", 0.01);
+    type("body_mass_kg", 1.0);
+    return out;
+}
+
+/// What the measures make likely of all, of a person whose sex is told.
+std::vector<vfit_measurement> estimated(vfit_context context, vfit_sex sex,
+                                        const std::vector<vfit_measurement>& known) {
+    const Population population = open_population(context, "adults");
+    vfit_person person = vfit_person_init();
+    person.sex = sex;
+    return list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_population_estimate(population.get(), &person, known.data(), sizeof known[0],
+                                        uint32_t(known.size()), items, stride, n);
+    });
+}
+
 /// The letter of the chest's girth, told and true, and what a chart by height and weight says.
 void judge_size(vfit_context context, const PersonOfPopulation& person,
                 const std::vector<vfit_measurement>& measured, SizeLetters& out) {
@@ -152,7 +178,8 @@ std::vector<std::string> groups_of(const PersonOfPopulation& person, const ScanS
             "by " + scene.sensor};
 }
 
-void scan(const PersonOfPopulation& person, const ScanScene& scene, bool told_sex, MeasureSet& set) {
+void scan(const PersonOfPopulation& person, const ScanScene& scene, uint32_t seed, bool told_sex,
+          MeasureSet& set) {
     ScanOfPerson one(scene, told_sex ? person.sex : VFIT_SEX_UNKNOWN, set.turn);
     ++set.scans;
     if (!one.front(person)) {
@@ -175,6 +202,13 @@ void scan(const PersonOfPopulation& person, const ScanScene& scene, bool told_se
     if (set.is_varied())
         for (const std::string& group : groups_of(person, scene))
             add(set.tight() ? told : both, person.measures, set.groups[group]);
+    std::vector<vfit_measurement> known = typed_by(person, seed);
+    add(estimated(one.context(), person.sex, known), person.measures, set.typed);
+    for (const vfit_measurement& m : set.tight() ? told : both)
+        if (std::none_of(known.begin(), known.end(),
+                         [&](const vfit_measurement& t) { return std::string(t.key) == m.key; }))
+            known.push_back(m);
+    add(estimated(one.context(), person.sex, known), person.measures, set.both_and_typed);
     judge_size(one.context(), person, both, set.letters);
     judge_size(one.context(), person, told, set.letters_told);
 }
@@ -193,7 +227,7 @@ void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, cons
     std::map<std::string, double> own;  // share of an error that repeats: squares of people's mean errors
     uint32_t people = 0, scans = 0;
     const bool tight = set.dress == Dress::kTight;
-    Population population(body, set.space, o.seed);
+    VirtualPeople population(body, set.space, o.seed);
     for (uint32_t i = o.first; i < o.first + std::max(3u, o.count / 10); ++i) {
         const PersonOfPopulation person = population.draw(i);
         const ScanScene first = ScanScene::draw(set.dress, o.seed * 104729u + i);
@@ -247,14 +281,15 @@ void run(const Options& o) {
     Targets targets(o.json);
     Json out = Json::array();
     const auto asked_for = [&](const std::string& name) { return name.rfind(o.only, 0) == 0; };
-    std::unique_ptr<Population> population;
+    std::unique_ptr<VirtualPeople> population;
     BodySpace made = BodySpace::kInside;
     for (MeasureSet& set : sets) {
         if (!asked_for(set.name)) continue;
         if (!population || made != set.space)
-            population = std::make_unique<Population>(body, made = set.space, o.seed);
+            population = std::make_unique<VirtualPeople>(body, made = set.space, o.seed);
         for (uint32_t p = o.first; p < o.first + o.count; ++p)
-            scan(population->draw(p), ScanScene::draw(set.dress, o.seed * 104729u + p), o.told_sex, set);
+            scan(population->draw(p), ScanScene::draw(set.dress, o.seed * 104729u + p), o.seed * 104729u + p,
+                 o.told_sex, set);
         if (!o.json) print(set);
         judge(set, targets);
         const double n = std::max(1u, set.letters.people);
@@ -268,6 +303,8 @@ void run(const Options& o) {
                                             {"both", &set.both},
                                             {"front_told_tight", &set.front_told},
                                             {"both_told_tight", &set.both_told},
+                                            {"typed", &set.typed},
+                                            {"both_and_typed", &set.both_and_typed},
                                             {"paper", &set.paper}})
             for (const auto& [key, t] : *tallies) one[name][key] = t.json();
         out.push_back(one);

@@ -130,6 +130,10 @@ void judge_varied(const MeasureSet& set, Targets& targets) {
         if (set.tight()) most(std::string(key) + ", front", front.at(key).mean(), 22);
         covered += both.at(key).covered() / std::size(kGirths);
     }
+    double camera = 0.0, typed = 0.0;
+    for (const char* key : kGirths) camera += both.at(key).mean(), typed += set.typed.at(key).mean();
+    targets.judge(set.name + ": girths, error" + views + " over that of typed height and weight", camera / typed,
+                  Aim::at_most, set.tight() ? 0.4 : 0.7, 2);
     most(std::string("stature_m") + views, both.at("stature_m").mean(), set.tight() ? 4 : 6);
     double worst_bias = -1.0, min_covered = 1.0;  // of the groups that are large enough
     std::string biased, uncovered;
@@ -166,7 +170,9 @@ void print(const MeasureSet& set) {
     if (set.tight())
         columns.insert(columns.end(), {{"front, told tight", &set.front_told},
                                        {set.turn ? "and turn" : "and side", &set.both_told}});
-    columns.push_back({"the paper's method", &set.paper});
+    columns.insert(columns.end(), {{"typed height, weight", &set.typed},
+                                   {"typed and all views", &set.both_and_typed},
+                                   {"the paper's method", &set.paper}});
     std::cout << "\nSYNTHETIC, " << set.name << ": " << set.scans << " scans, " << set.failed
               << " of them failed. Absolute error with 95 % confidence, bias, share within the 90 % "
                  "interval; mm, kg\n"

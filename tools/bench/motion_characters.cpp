@@ -14,7 +14,7 @@
 #include "bench/motion_people.h"
 #include "core/clock.h"
 #include "export/character.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 #include "motion/motion.h"
 
 namespace vfit::tools {

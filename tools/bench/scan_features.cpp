@@ -149,7 +149,7 @@ void run(const Options& o) {
         return run_recordings(o, file);
     }
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
-    Population population(body, body_space(o.space), o.seed);
+    VirtualPeople population(body, body_space(o.space), o.seed);
     const auto model = std::make_shared<const FitModel>(*body);
     const Context context = open_context();
     std::ofstream file(o.out, std::ios::app);

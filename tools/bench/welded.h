@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "client/client.h"
+#include "geometry/mesh_query.h"
 #include "math/types.h"
-#include "measure/mesh_query.h"
 
 namespace vfit::tools {
 

@@ -48,6 +48,10 @@ SizeChart open_chart(vfit_context context, const std::string& name_or_path) {
     return open_or_load<SizeChart>(context, name_or_path, vfit_size_chart_open, vfit_size_chart_load);
 }
 
+Population open_population(vfit_context context, const std::string& name_or_path) {
+    return open_or_load<Population>(context, name_or_path, vfit_population_open, vfit_population_load);
+}
+
 Garment open_garment(vfit_context context, const std::string& name_or_path) {
     return open_or_load<Garment>(context, name_or_path, vfit_garment_open, vfit_garment_load);
 }

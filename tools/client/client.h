@@ -57,6 +57,7 @@ using Frame = Handle<vfit_frame, vfit_frame_release>;
 using Tracker = Handle<vfit_tracker, vfit_tracker_destroy>;
 using Scan = Handle<vfit_scan, vfit_scan_destroy>;
 using SizeChart = Handle<vfit_size_chart, vfit_size_chart_destroy>;
+using Population = Handle<vfit_population, vfit_population_destroy>;
 using Motion = Handle<vfit_motion, vfit_motion_destroy>;
 using Avatar = Handle<vfit_avatar, vfit_avatar_destroy>;
 using Garment = Handle<vfit_garment, vfit_garment_destroy>;

@@ -53,6 +53,7 @@ Argument Command::add_option(const char* name, T& value, const char* help) {
     return Argument(app_of(app_).add_option(name, value, help));
 }
 template Argument Command::add_option(const char*, std::string&, const char*);
+template Argument Command::add_option(const char*, std::vector<std::string>&, const char*);
 template Argument Command::add_option(const char*, int32_t&, const char*);
 template Argument Command::add_option(const char*, uint32_t&, const char*);
 template Argument Command::add_option(const char*, uint64_t&, const char*);

@@ -39,7 +39,7 @@ class Command {
 public:
     explicit Command(void* app) : app_(app) {}
     Command add_subcommand(const char* name, const char* help);
-    /// T: a text, a whole number or a floating-point number.
+    /// T: a text, a list of texts, a whole number or a floating-point number.
     template <typename T>
     Argument add_option(const char* name, T& value, const char* help);
     Argument add_option_function(const char* name, std::function<void(const std::string&)> set,

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <iomanip>
+#include <iostream>
 #include <string>
 
 #include "client/files.h"
@@ -118,6 +120,21 @@ Json measurements_json(const std::vector<vfit_measurement>& measurements) {
     for (const vfit_measurement& m : measurements)
         out[m.key] = {{"value", m.value}, {"sigma", m.sigma}, {"observed", m.observed != 0}};
     return out;
+}
+
+void print_measurements(const Json& measurements) {
+    std::cout << std::fixed;
+    for (const auto& [key, m] : measurements.items()) {
+        const bool mass = key.size() > 3 && key.substr(key.size() - 3) == "_kg";
+        const auto print_amount = [&](double value) {
+            std::cout << std::setprecision(mass ? 1 : 3) << std::setw(7) << value << (mass ? " kg" : " m ");
+        };
+        std::cout << std::left << std::setw(24) << key << std::right;
+        print_amount(m["value"]);
+        std::cout << "  +-";
+        print_amount(m["sigma"]);
+        std::cout << (m["observed"].get<bool>() ? "" : "  (inferred)") << "\n";
+    }
 }
 
 std::vector<vfit_measurement> measurements_of(vfit_scan scan) {

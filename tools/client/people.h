@@ -44,6 +44,8 @@ ScanRun scan_source(vfit_context context, const std::string& uri, const ScanOpti
 const char* guidance_text(vfit_guidance guidance);
 
 Json measurements_json(const std::vector<vfit_measurement>& measurements);
+/// A line each, of what measurements_json returned.
+void print_measurements(const Json& measurements);
 std::vector<vfit_measurement> measurements_of(vfit_scan scan);
 struct StoredMeasures {
     std::vector<vfit_measurement> measurements;

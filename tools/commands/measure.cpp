@@ -71,23 +71,11 @@ Json measure(const Options& options) {
     return out;
 }
 
-/// "1.702 m", "71.3 kg".
-void print_amount(const std::string& key, double value) {
-    const bool mass = key.size() > 3 && key.substr(key.size() - 3) == "_kg";
-    std::cout << std::setprecision(mass ? 1 : 3) << std::setw(7) << value << (mass ? " kg" : " m ");
-}
-
 void print(const Json& result) {
     if (result.contains("note")) std::cout << result["note"].get<std::string>() << "\n";
     std::cout << result["frames"] << " frames, " << std::fixed << std::setprecision(2)
               << result["compute_ms"]["total"].get<double>() << " ms\n";
-    for (const auto& [key, m] : result["measurements"].items()) {
-        std::cout << std::left << std::setw(24) << key << std::right;
-        print_amount(key, m["value"]);
-        std::cout << "  +-";
-        print_amount(key, m["sigma"]);
-        std::cout << (m["observed"].get<bool>() ? "" : "  (inferred)") << "\n";
-    }
+    print_measurements(result["measurements"]);
 }
 
 }  // namespace

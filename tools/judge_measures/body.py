@@ -8,7 +8,7 @@ from motion import Motion
 ARM_BONES = ("Arm", "ForeArm", "Hand")
 OF_ARM = 0.5  # of a vertex's weight: from there on it is the arm's
 RIB_ARCH = 0.2  # of the way from the waist to the neck
-# The waist, of the way from the hip joints to the neck, as sdk/measure/tape_trunk.cpp has it.
+# The waist, of the way from the hip joints to the neck, as sdk/anthropometry/tape_trunk.cpp has it.
 WAIST = {"f": 0.328, "m": 0.308}
 BELOW_HIPS = 0.12  # of the way from the hip joints to the neck, below them: the hip's lowest level
 TAPE_HALF_WIDTH_M = 0.01

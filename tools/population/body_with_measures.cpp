@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthropometry/tape_mesh.h"
 #include "avatar/avatar_measures.h"
 #include "core/error.h"
-#include "measure/section.h"
-#include "measure/tape_mesh.h"
+#include "geometry/section.h"
 
 namespace vfit::tools {
 

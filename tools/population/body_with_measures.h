@@ -8,8 +8,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "anthropometry/measurement.h"
 #include "body/body_model.h"
-#include "measure/measurement.h"
 
 namespace vfit::tools {
 

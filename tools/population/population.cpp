@@ -158,13 +158,13 @@ std::string PersonOfPopulation::options() const {
     return out.str();
 }
 
-Population::Population(std::shared_ptr<const BodyModel> model, BodySpace space, uint32_t seed)
+VirtualPeople::VirtualPeople(std::shared_ptr<const BodyModel> model, BodySpace space, uint32_t seed)
     : model_(std::move(model)),
       space_(space),
       seed_(seed),
       survey_(VFIT_POPULATION_DIR "/ansur2_moments.json") {}
 
-std::vector<float> Population::random_shape(vfit_sex sex, Random& random) const {
+std::vector<float> VirtualPeople::random_shape(vfit_sex sex, Random& random) const {
     std::vector<float> shape = model_->default_shape(sex);
     const auto set = [&](const char* key, float value) {
         const auto p = size_t(model_->parameter(key));
@@ -180,7 +180,7 @@ std::vector<float> Population::random_shape(vfit_sex sex, Random& random) const 
     return shape;
 }
 
-void Population::change_locally(Random& random, std::vector<float>& shape) const {
+void VirtualPeople::change_locally(Random& random, std::vector<float>& shape) const {
     const auto set = [&](const std::string& key, float value) {
         const auto p = size_t(model_->parameter(key));
         shape[p] = std::clamp(value, model_->parameters()[p].minimum, model_->parameters()[p].maximum);
@@ -197,20 +197,20 @@ void Population::change_locally(Random& random, std::vector<float>& shape) const
     }
 }
 
-const BodyWithMeasures& Population::solver(vfit_sex sex, bool with_reaches) {
+const BodyWithMeasures& VirtualPeople::solver(vfit_sex sex, bool with_reaches) {
     auto& one = (with_reaches ? reaching_ : usual_)[sex == VFIT_SEX_MALE ? 1 : 0];
     if (!one) one.emplace(model_, sex, free_shapes(space_, with_reaches), wanted_keys(space_, with_reaches));
     return *one;
 }
 
-SurveyMeasures Population::draw_measures(vfit_sex sex, Random& random) const {
+SurveyMeasures VirtualPeople::draw_measures(vfit_sex sex, Random& random) const {
     const SurveyMeasures soldier = survey_.draw(sex, random);
     if (space_ != BodySpace::kVaried) return soldier;
     const double bmi = kMiddleBmi * std::exp(kBmiSpread * double(random.normal()));
     return survey_.with_mass(sex, soldier, bmi * std::pow(1e-3 * soldier["stature"], 2.0));
 }
 
-PersonOfPopulation Population::draw(uint32_t number) {
+PersonOfPopulation VirtualPeople::draw(uint32_t number) {
     Random random(seed_ * 1000003u + number);
     const vfit_sex sex = number % 2 ? VFIT_SEX_MALE : VFIT_SEX_FEMALE;
     const bool is_varied = space_ == BodySpace::kVaried;

@@ -36,9 +36,9 @@ struct PersonOfPopulation {
 
 /// People by number: a number gives the same person whatever was drawn before. BMI 18 to 35, stature 1.50 to
 /// 2.00 m; of kVaried BMI 16 to 45, stature 1.45 to 2.05 m.
-class Population {
+class VirtualPeople {
 public:
-    Population(std::shared_ptr<const BodyModel> model, BodySpace space, uint32_t seed);
+    VirtualPeople(std::shared_ptr<const BodyModel> model, BodySpace space, uint32_t seed);
     PersonOfPopulation draw(uint32_t number);
     const Anthropometry& survey() const { return survey_; }
 

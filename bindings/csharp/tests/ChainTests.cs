@@ -350,6 +350,32 @@ namespace Vfit.Tests
         }
 
         [Test]
+        public void AllMeasuresFollowFromThoseThatAPersonKnows()
+        {
+            Assert.That(Population.List(Context).Select(p => p.Name), Has.Member("adults"));
+            using (Population adults = Population.Open(Context, "adults"))
+            {
+                Measurement[] all = adults.Estimate(
+                    new[] { Measurements.Known("stature_m", 1.7f), Measurements.Known("body_mass_kg", 65f) },
+                    Sex.Female, 40f);
+                Assert.That(all.Select(m => m.Key), Has.Member("hip_girth_m"));
+                Doubt[] doubts = adults.Check(
+                    new[]
+                    {
+                        Measurements.Known("stature_m", 1.7f), Measurements.Known("body_mass_kg", 65f),
+                        Measurements.Known("waist_girth_m", 0.30f), Measurements.Known("hip_girth_m", 1.0f)
+                    },
+                    Sex.Female);
+                Assert.AreEqual(1, doubts.Length);
+                Assert.AreEqual("waist_girth_m", doubts[0].Key);
+                Assert.AreEqual(DoubtKind.Inches, doubts[0].Kind);
+                Assert.AreEqual(0.762f, doubts[0].Suggested, 0.001f);
+                Assert.AreEqual(Result.ErrorArgument, Support.CodeOf(() => adults.Estimate(all, Sex.Female, 7f)));
+            }
+            Assert.AreEqual(Result.ErrorData, Support.CodeOf(() => Population.Load(Context, "{}")));
+        }
+
+        [Test]
         public void ABodyIsShapedMeasuredAndTakenApart()
         {
             ShapeValue[] shapes = Context.Shapes();

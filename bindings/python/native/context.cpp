@@ -112,6 +112,9 @@ void bind_context(py::module_& m) {
         .def(
             "size_charts", [](const Context& c) { return data_names(c, vfit_size_chart_list); },
             "Names that SizeChart.open takes.")
+        .def(
+            "populations", [](const Context& c) { return data_names(c, vfit_population_list); },
+            "Names that Population.open takes.")
         .def("sensors", &sensors, "The sensors that can be opened now.")
         .def(
             "sensor_changes",

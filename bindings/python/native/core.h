@@ -234,6 +234,7 @@ void bind_recorder(py::module_& m);
 void bind_tracker(py::module_& m);
 void bind_scan(py::module_& m);
 void bind_size(py::module_& m);
+void bind_population(py::module_& m);
 void bind_avatar(py::module_& m);
 void bind_motion(py::module_& m);
 void bind_pose_formats(py::module_& m);

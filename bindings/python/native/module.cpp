@@ -44,6 +44,7 @@ PYBIND11_MODULE(_vfit, m) {
     bind_tracker(m);
     bind_scan(m);
     bind_size(m);
+    bind_population(m);
     bind_avatar(m);
     bind_motion(m);
     bind_pose_formats(m);

@@ -117,6 +117,13 @@ void bind_vocabulary(py::module_& m) {
               {"PROPORTIONS_AS_PRINTED", VFIT_SCAN_PROPORTIONS_AS_PRINTED},
               {"FIT", VFIT_SCAN_FIT}},
              "How a scan measures; PROPORTIONS is the paper's way, FIT a body fitted to all frames.");
+    add_enum(m, "DoubtKind",
+             {{"UNLIKELY", VFIT_DOUBT_UNLIKELY},
+              {"INCHES", VFIT_DOUBT_INCHES},
+              {"POUNDS", VFIT_DOUBT_POUNDS},
+              {"DIGIT", VFIT_DOUBT_DIGIT},
+              {"SWAPPED", VFIT_DOUBT_SWAPPED}},
+             "The slip that explains a measure which does not go with the others.");
     add_enum(m, "Guidance",
              {{"NONE", VFIT_GUIDANCE_NONE},
               {"STEP_BACK", VFIT_GUIDANCE_STEP_BACK},

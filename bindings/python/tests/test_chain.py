@@ -145,6 +145,23 @@ def test_measurements_are_kept_as_text_and_merged():
         vfit.read_measurements("{")
 
 
+def test_all_measures_follow_from_those_that_a_person_knows(context):
+    assert "adults" in context.populations()
+    adults = vfit.Population.open(context, "adults")
+    known = {"stature_m": 1.7, "body_mass_kg": 65.0}
+    all_measures = adults.estimate(known, sex="f", age=40)
+    assert 0.9 < all_measures["hip_girth_m"].value < 1.1
+    assert all_measures["stature_m"].observed and not all_measures["hip_girth_m"].observed
+    assert adults.check(known, sex="f") == []
+    (doubt,) = adults.check({**known, "waist_girth_m": 0.30, "hip_girth_m": 1.0}, sex="f")
+    assert (doubt.key, doubt.kind) == ("waist_girth_m", vfit.DoubtKind.INCHES)
+    assert doubt.suggested == pytest.approx(0.762, abs=0.001)
+    with pytest.raises(vfit.ArgumentError):
+        adults.estimate(known, age=7)
+    with pytest.raises(vfit.DataError):
+        vfit.Population.load(context, "{}")
+
+
 def test_scans_are_calibrated_to_a_tape():
     text = None
     for i in range(40):

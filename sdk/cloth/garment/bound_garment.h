@@ -12,8 +12,8 @@
 #include "cloth/garment/carried.h"
 #include "cloth/garment/garment.h"
 #include "core/jobs.h"
+#include "geometry/mesh_query.h"
 #include "math/types.h"
-#include "measure/mesh_query.h"
 
 namespace vfit {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "geometry/mesh_query.h"
 #include "math/types.h"
-#include "measure/mesh_query.h"
 
 namespace vfit {
 

@@ -9,7 +9,7 @@
 #include "cloth/garment/cut.h"
 #include "cloth/garment/hems.h"
 #include "core/error.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 

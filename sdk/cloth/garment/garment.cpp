@@ -4,10 +4,10 @@
 #include <map>
 #include <set>
 
+#include "anthropometry/measure_keys.h"
 #include "core/error.h"
 #include "core/json.h"
 #include "math/finite.h"
-#include "measure/measure_keys.h"
 
 namespace vfit {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "anthropometry/measurement.h"
 #include "body/mesh.h"
 #include "cloth/fabric/fabric_library.h"
-#include "measure/measurement.h"
 #include "vfit.h"
 
 namespace vfit {

@@ -4,10 +4,10 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "anthropometry/measure_keys.h"
 #include "cook/draft/draft.h"
 #include "core/error.h"
 #include "core/json.h"
-#include "measure/measure_keys.h"
 
 namespace vfit {
 

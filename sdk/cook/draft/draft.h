@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "anthropometry/measurement.h"
 #include "body/body_model.h"
 #include "cook/pattern/pattern.h"
-#include "measure/measurement.h"
 
 namespace vfit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/section.h"
+#include "geometry/section.h"
 
 namespace vfit {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anthropometry/tape_landmarks.h"
 #include "avatar/avatar_measures.h"
 #include "core/error.h"
-#include "measure/tape_landmarks.h"
 
 namespace vfit {
 

@@ -8,8 +8,8 @@
 #include "body/body_model.h"
 #include "cloth/fabric/fabric_library.h"
 #include "core/jobs.h"
+#include "geometry/mesh_query.h"
 #include "math/types.h"
-#include "measure/mesh_query.h"
 
 namespace vfit {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "cloth/cloth.h"
-#include "measure/section.h"
+#include "geometry/section.h"
 
 namespace vfit {
 

@@ -12,8 +12,8 @@
 
 #include "cook/mesh/triangulation.h"
 #include "core/error.h"
+#include "geometry/mesh_query.h"
 #include "math/finite.h"
-#include "measure/mesh_query.h"
 
 namespace vfit {
 

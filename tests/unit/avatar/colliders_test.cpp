@@ -6,7 +6,7 @@
 
 #include "body_fixture.h"
 #include "core/error.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "body_fixture.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 #include "support/allocation_count.h"
 
 namespace vfit {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "body_fixture.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 namespace {

@@ -1,5 +1,5 @@
 // Measures that a user adds, on the body model's mesh.
-#include "measure/own_measures.h"
+#include "anthropometry/own_measures.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "anthropometry/tape_landmarks.h"
 #include "avatar/avatar_measures.h"
-#include "measure/tape_landmarks.h"
 #include "unit/avatar/body_fixture.h"
 
 namespace vfit {

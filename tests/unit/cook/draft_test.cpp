@@ -10,7 +10,7 @@
 #include "cook/draft/blocks.h"
 #include "cook/draft/draft.h"
 #include "core/error.h"
-#include "measure/section.h"
+#include "geometry/section.h"
 #include "pattern_support.h"
 
 namespace vfit {

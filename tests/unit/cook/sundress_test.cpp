@@ -13,7 +13,7 @@
 #include "cook/garment_writer.h"
 #include "cook/sundress.h"
 #include "core/error.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 namespace {

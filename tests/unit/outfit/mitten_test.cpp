@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 
 namespace vfit {
 namespace {

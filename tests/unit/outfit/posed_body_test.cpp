@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 #include "people.h"
 
 namespace vfit {

@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "cloth/contact/contact.h"
-#include "measure/mesh_query.h"
+#include "geometry/mesh_query.h"
 #include "outfit/hidden_skin.h"
 #include "outfit/skin_below.h"
 #include "outfit/skin_cover.h"

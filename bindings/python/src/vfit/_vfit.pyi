@@ -32,6 +32,7 @@ from .values import (
     Collider,
     ContextStats,
     Crossing,
+    Doubt,
     FitZone,
     GarmentInfo,
     GarmentPart,
@@ -166,6 +167,13 @@ class ScanMethod(IntEnum):
     PROPORTIONS_AS_PRINTED = 2
     FIT = 3
 
+class DoubtKind(IntEnum):
+    UNLIKELY = 0
+    INCHES = 1
+    POUNDS = 2
+    DIGIT = 3
+    SWAPPED = 4
+
 class Guidance(IntEnum):
     """Why a scan did not take a frame."""
 
@@ -277,6 +285,8 @@ class Context(_Closable):
         """Names that Garment.open takes."""
     def size_charts(self) -> list[str]:
         """Names that SizeChart.open takes."""
+    def populations(self) -> list[str]:
+        """Names that Population.open takes."""
     def load_plugin(self, path: _Path) -> None: ...
     def shape_values(self) -> dict[str, ShapeValue]: ...
     def pack_pose(self, pose: Pose) -> bytes:
@@ -485,6 +495,18 @@ class SizeChart(_Closable):
         """Every label of that kind with its probability, best first."""
     def zones(self, garment_kind: str, label: str, measurements: _Measures) -> list[SizeZone]:
         """How that size sits, by measure."""
+
+class Population(_Closable):
+    @staticmethod
+    def open(context: Context, name: str) -> Population: ...
+    @staticmethod
+    def load(context: Context, json: Union[str, bytes]) -> Population: ...
+    def estimate(
+        self, known: _Measures, sex: _Sex = None, age: Optional[float] = None
+    ) -> dict[str, Measurement]:
+        """Every measure of a person of whom these are known: typed (sigma 0), taped or scanned."""
+    def check(self, known: _Measures, sex: _Sex = None, age: Optional[float] = None) -> list[Doubt]:
+        """Measures that do not go with the others, the worst first."""
 
 def write_measurements(measurements: _Measures, sex: _Sex = None) -> str:
     """As JSON text, for an app that keeps them with the person's consent."""

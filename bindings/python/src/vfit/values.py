@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ._vfit import (
     BONE_NAMES,
     Bone,
+    DoubtKind,
     FloorState,
     Guidance,
     Joint,
@@ -31,6 +32,7 @@ __all__ = [
     "Collider",
     "ContextStats",
     "Crossing",
+    "Doubt",
     "FitZone",
     "GarmentInfo",
     "GarmentPart",
@@ -282,6 +284,23 @@ class CalibratedMeasure(NamedTuple):
     """Of the tape from the scan, in the measure's unit."""
     widening: float
     """Of sigma."""
+
+
+class Doubt(NamedTuple):
+    """A measure that does not go with the others of its list."""
+
+    key: str
+    kind: DoubtKind
+    value: float
+    """As it was given."""
+    suggested: float
+    """What the slip makes of it; of UNLIKELY: as expected."""
+    expected: float
+    """By the others."""
+    sigma: float
+    """Of expected."""
+    other_key: str
+    """Of SWAPPED; else empty."""
 
 
 class SizeRow(NamedTuple):

@@ -1464,6 +1464,217 @@ namespace Vfit
             return (int)listed;
         }
 
+        internal static Result PopulationList(ContextHandle context, DataName* items, uint stride,
+            uint* count)
+        {
+            bool contextHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_population_list(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
+        }
+
+        internal static DataName[] PopulationList(ContextHandle context)
+        {
+            uint listed = 0;
+            PopulationList(context, null, (uint)sizeof(DataName), &listed);
+            for (;;)
+            {
+                var list = new DataName[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (DataName* first = list) PopulationList(context, first, (uint)sizeof(DataName),
+                        &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int PopulationList(ContextHandle context, DataName[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            DataName none;
+            uint listed = (uint)into.Length;
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) PopulationList(context, &none, (uint)sizeof(DataName), &listed);
+            else fixed (DataName* first = into) PopulationList(context, first, (uint)sizeof(DataName),
+                &listed);
+            return (int)listed;
+        }
+
+        internal static Result PopulationLoad(ContextHandle context, void* bytes, ulong byteCount,
+            PopulationHandle @out)
+        {
+            bool contextHeld = false;
+            var outId = new PopulationId();
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_population_load(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), bytes, byteCount, &outId));
+                @out.Put(outId.Value);
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
+        }
+
+        internal static Result PopulationOpen(ContextHandle context, byte* name, PopulationHandle @out)
+        {
+            bool contextHeld = false;
+            var outId = new PopulationId();
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_population_open(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), name, &outId));
+                @out.Put(outId.Value);
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
+        }
+
+        internal static Result PopulationDestroy(PopulationHandle population)
+        {
+            bool populationHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_population_destroy(
+                    new PopulationId(VfitHandle.Hold(population, ref populationHeld))));
+                return result;
+            }
+            finally
+            {
+                if (populationHeld) population.DangerousRelease();
+            }
+        }
+
+        internal static Result PopulationEstimate(PopulationHandle population, Person* person,
+            Measurement* known, uint knownStride, uint knownCount, Measurement* items, uint stride,
+            uint* count)
+        {
+            bool populationHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_population_estimate(
+                    new PopulationId(VfitHandle.Hold(population, ref populationHeld)), person, known,
+                    knownStride, knownCount, items, stride, count));
+                return result;
+            }
+            finally
+            {
+                if (populationHeld) population.DangerousRelease();
+            }
+        }
+
+        internal static Measurement[] PopulationEstimate(PopulationHandle population, Person* person,
+            Measurement* known, uint knownStride, uint knownCount)
+        {
+            uint listed = 0;
+            PopulationEstimate(population, person, known, knownStride, knownCount, null,
+                (uint)sizeof(Measurement), &listed);
+            for (;;)
+            {
+                var list = new Measurement[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (Measurement* first = list) PopulationEstimate(population, person, known,
+                        knownStride, knownCount, first, (uint)sizeof(Measurement), &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int PopulationEstimate(PopulationHandle population, Person* person,
+            Measurement* known, uint knownStride, uint knownCount, Measurement[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            Measurement none;
+            uint listed = (uint)into.Length;
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) PopulationEstimate(population, person, known, knownStride, knownCount, &none,
+                (uint)sizeof(Measurement), &listed);
+            else fixed (Measurement* first = into) PopulationEstimate(population, person, known, knownStride,
+                knownCount, first, (uint)sizeof(Measurement), &listed);
+            return (int)listed;
+        }
+
+        internal static Result PopulationCheck(PopulationHandle population, Person* person,
+            Measurement* known, uint knownStride, uint knownCount, Doubt* items, uint stride, uint* count)
+        {
+            bool populationHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_population_check(
+                    new PopulationId(VfitHandle.Hold(population, ref populationHeld)), person, known,
+                    knownStride, knownCount, items, stride, count));
+                return result;
+            }
+            finally
+            {
+                if (populationHeld) population.DangerousRelease();
+            }
+        }
+
+        internal static Doubt[] PopulationCheck(PopulationHandle population, Person* person,
+            Measurement* known, uint knownStride, uint knownCount)
+        {
+            uint listed = 0;
+            PopulationCheck(population, person, known, knownStride, knownCount, null, (uint)sizeof(Doubt),
+                &listed);
+            for (;;)
+            {
+                var list = new Doubt[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (Doubt* first = list) PopulationCheck(population, person, known, knownStride,
+                        knownCount, first, (uint)sizeof(Doubt), &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int PopulationCheck(PopulationHandle population, Person* person, Measurement* known,
+            uint knownStride, uint knownCount, Doubt[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            Doubt none;
+            uint listed = (uint)into.Length;
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) PopulationCheck(population, person, known, knownStride, knownCount, &none,
+                (uint)sizeof(Doubt), &listed);
+            else fixed (Doubt* first = into) PopulationCheck(population, person, known, knownStride,
+                knownCount, first, (uint)sizeof(Doubt), &listed);
+            return (int)listed;
+        }
+
         internal static Result SizeChartList(ContextHandle context, DataName* items, uint stride, uint* count)
         {
             bool contextHeld = false;
@@ -3316,5 +3527,12 @@ namespace Vfit
     {
         internal PropHandle(VfitHandle parent) : base(parent) { }
         internal override Result End(ulong id) { return Native.vfit_prop_destroy(new PropId(id)); }
+    }
+
+    public sealed partial class PopulationHandle : VfitHandle
+    {
+        internal PopulationHandle(VfitHandle parent) : base(parent) { }
+        internal override Result End(ulong id) { return Native.vfit_population_destroy(
+            new PopulationId(id)); }
     }
 }

@@ -381,6 +381,42 @@ namespace Vfit
             Measurement* scanned, uint scannedStride, uint scannedCount, Measurement* items, uint stride,
             uint* count);
 
+        /// <summary>How the measures of people go together (docs/measuring.md): what the measures that a
+        /// person knows make likely of all the others. Names of those in data_dir/populations, in
+        /// alphabetical order. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_population_list(ContextId context, DataName* items, uint stride,
+            uint* count);
+
+        /// <summary>A population as JSON, or by the name of a file in data_dir/populations. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_population_load(ContextId context, void* bytes, ulong byteCount,
+            PopulationId* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_population_open(ContextId context, byte* name, PopulationId* @out);
+
+        /// <summary>[any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_population_destroy(PopulationId population);
+
+        /// <summary>Every measure that the population has, of a person of whom those in known are known:
+        /// typed, taped or scanned, each with its sigma (0: as exact as people know it of themselves). person
+        /// null: sex and age unknown. Given measures are observed and come closer to what the others say; of
+        /// the others value and sigma are what is likely. Measures that the population has not are passed
+        /// through. [read]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_population_estimate(PopulationId population, Person* person,
+            Measurement* known, uint knownStride, uint knownCount, Measurement* items, uint stride,
+            uint* count);
+
+        /// <summary>Which of these is probably wrong? An item for each measure that does not go with the
+        /// others, the worst first; none is often right: with two measures it cannot be told which one it is.
+        /// [read]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_population_check(PopulationId population, Person* person,
+            Measurement* known, uint knownStride, uint knownCount, Doubt* items, uint stride, uint* count);
+
         /// <summary>Names of the size charts in data_dir/charts, in alphabetical order. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_size_chart_list(ContextId context, DataName* items, uint stride,

@@ -296,6 +296,20 @@ namespace Vfit
         Turn = 4,
     }
 
+    public enum DoubtKind : int
+    {
+        /// <summary>by the others, and no slip below explains it</summary>
+        Unlikely = 0,
+        /// <summary>inches were taken for centimetres</summary>
+        Inches = 1,
+        /// <summary>pounds were taken for kilograms</summary>
+        Pounds = 2,
+        /// <summary>one digit is wrong, or two are in the wrong order</summary>
+        Digit = 3,
+        /// <summary>its value and that of other_key stand in each other's place</summary>
+        Swapped = 4,
+    }
+
     [Flags]
     public enum ContactFlags : uint
     {
@@ -513,6 +527,13 @@ namespace Vfit
     {
         internal ulong Value;
         internal PropId(ulong value) { Value = value; }
+    }
+
+    [StructLayout(LayoutKind.Sequential, Size = 8)]
+    internal struct PopulationId
+    {
+        internal ulong Value;
+        internal PopulationId(ulong value) { Value = value; }
     }
 
     [StructLayout(LayoutKind.Sequential, Size = 72)]
@@ -1010,6 +1031,46 @@ namespace Vfit
         {
             get { fixed (byte* bytes = keyBytes) return Utf8Text.Read(bytes, 48); }
             set { fixed (byte* bytes = keyBytes) Utf8Text.Write(value, bytes, 48, "Key"); }
+        }
+    }
+
+    /// <summary>Of whom measures are estimated.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 16)]
+    public unsafe partial struct Person
+    {
+        internal uint StructSize;
+        /// <summary>VFIT_SEX_UNKNOWN: both are mixed by how well the measures suit each</summary>
+        public Sex Sex;
+        /// <summary>18 to 100; 0: not told</summary>
+        public float AgeYears;
+        internal uint Reserved;
+    }
+
+    /// <summary>A measure that does not go with the others of its list.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 120)]
+    public unsafe partial struct Doubt
+    {
+        internal uint StructSize;
+        public DoubtKind Kind;
+        /// <summary>as it was given</summary>
+        public float Value;
+        /// <summary>what the slip makes of it; of VFIT_DOUBT_UNLIKELY: as expected</summary>
+        public float Suggested;
+        /// <summary>by the others</summary>
+        public float Expected;
+        /// <summary>by the others</summary>
+        public float Sigma;
+        internal fixed byte keyBytes[48];
+        public string Key
+        {
+            get { fixed (byte* bytes = keyBytes) return Utf8Text.Read(bytes, 48); }
+            set { fixed (byte* bytes = keyBytes) Utf8Text.Write(value, bytes, 48, "Key"); }
+        }
+        internal fixed byte otherKeyBytes[48];
+        public string OtherKey
+        {
+            get { fixed (byte* bytes = otherKeyBytes) return Utf8Text.Read(bytes, 48); }
+            set { fixed (byte* bytes = otherKeyBytes) Utf8Text.Write(value, bytes, 48, "OtherKey"); }
         }
     }
 

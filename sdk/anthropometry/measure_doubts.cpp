@@ -1,0 +1,162 @@
+#include "anthropometry/measure_doubts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anthropometry/measure_keys.h"
+#include "anthropometry/measurement_check.h"
+#include "core/error.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr float kInch_m = 0.0254f, kPound_kg = 0.45359237f;
+// How often a slip of that kind is made with one measure; there are some thirty ways to mistype a digit.
+const double kLogUnits = std::log(1.0 / 200.0), kLogDigit = std::log(1.0 / 500.0 / 30.0),
+             kLogSwapped = std::log(1.0 / 500.0);
+// Of a value that nothing explains, and of what a slip leaves: in standard deviations.
+constexpr double kUnlikely = 4.0;
+
+/// Of a list that could be as it is.
+double log_likelihood(const PopulationModel& population, vfit_sex sex, const Person& person,
+                      const std::vector<Measurement>& known) {
+    PopulationModel::Belief belief = population.prior(sex, person.age_years);
+    double jacobian = 0.0;  // from the density of the logarithm to that of the value
+    for (const Measurement& m : known)
+        if (const auto at = population.place(sex, m.key)) {
+            const double log_value = std::log(double(m.value)), error = log_error(m);
+            belief.observe(*at, log_value, error * error);
+            jacobian -= log_value;
+        }
+    return belief.log_likelihood + jacobian;
+}
+
+/// What the other measures expect of that one: mean and deviation of its logarithm as it would be measured.
+struct Expected {
+    double mean, sd;
+};
+Expected expected(const PopulationModel& population, vfit_sex sex, const Person& person,
+                  const std::vector<Measurement>& known, size_t of) {
+    PopulationModel::Belief belief = population.prior(sex, person.age_years);
+    for (size_t i = 0; i < known.size(); ++i)
+        if (const auto at = population.place(sex, known[i].key); at && i != of) {
+            const double error = log_error(known[i]);
+            belief.observe(*at, std::log(double(known[i].value)), error * error);
+        }
+    const size_t at = *population.place(sex, known[of].key);
+    const double error = log_error(known[of]);
+    return {belief.mean[at], std::sqrt(belief.variance(at) + error * error)};
+}
+
+struct Slip {
+    vfit_doubt_kind kind;
+    size_t item, other;  // other: of a swap
+    float meant;
+    double log_prior;
+};
+
+/// Numbers that were meant, if one digit of this one is wrong or two neighbours changed places. In centimetres,
+/// or kilograms, to the millimetre or the hundred grams.
+std::vector<float> meant_numbers(float value, bool mass) {
+    const int digits = int(std::lround(value * (mass ? 10.0f : 1000.0f)));
+    std::vector<float> out;
+    const auto add = [&](int number) {
+        if (number > 0 && number != digits) out.push_back(float(number) / (mass ? 10.0f : 1000.0f));
+    };
+    for (int place = 10; place <= 1000 && place <= digits; place *= 10) {
+        const int digit = digits / place % 10;
+        for (int other = 0; other < 10; ++other) add(digits + (other - digit) * place);
+        const int next = digits / (place * 10) % 10;
+        if (digits >= place * 10) add(digits + (digit - next) * 9 * place);
+    }
+    return out;
+}
+
+std::vector<Slip> slips(const std::vector<Measurement>& known) {
+    std::vector<Slip> out;
+    for (size_t i = 0; i < known.size(); ++i) {
+        const bool mass = is_mass(known[i].key);
+        if (mass) {
+            out.push_back({VFIT_DOUBT_POUNDS, i, i, known[i].value * kPound_kg, kLogUnits});
+        } else {
+            out.push_back({VFIT_DOUBT_INCHES, i, i, known[i].value * kInch_m * 100.0f, kLogUnits});
+        }
+        for (const float meant : meant_numbers(known[i].value, mass))
+            out.push_back({VFIT_DOUBT_DIGIT, i, i, meant, kLogDigit});
+        for (size_t k = i + 1; k < known.size(); ++k)
+            if (is_mass(known[k].key) == mass)
+                out.push_back({VFIT_DOUBT_SWAPPED, i, k, known[k].value, kLogSwapped});
+    }
+    return out;
+}
+
+/// The list as it was meant.
+std::vector<Measurement> mended(std::vector<Measurement> known, const Slip& slip) {
+    const auto put = [](Measurement& m, float value) {
+        m.sigma *= value / m.value;
+        m.value = value;
+    };
+    const float before = known[slip.item].value;
+    put(known[slip.item], slip.meant);
+    if (slip.other != slip.item) put(known[slip.other], before);
+    return known;
+}
+
+bool plausible(const Measurement& m) {
+    const PlausibleRange range = plausible_range(m.key);
+    return m.value >= range.smallest && m.value <= range.largest;
+}
+
+}  // namespace
+
+std::vector<Doubt> find_doubts(const PopulationModel& population, const Person& person,
+                               std::vector<Measurement> known) {
+    const vfit_sex sex =
+        population.probability_female(person, known) >= 0.5 ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
+    std::erase_if(known, [&](const Measurement& m) { return !population.place(sex, m.key); });
+    for (size_t i = 0; i < known.size(); ++i)
+        for (size_t k = 0; k < i; ++k)
+            if (known[i].key == known[k].key)
+                fail(VFIT_ERROR_DATA, "population: ", known[i].key, " is known twice");
+    std::vector<Doubt> out;
+    const auto doubt = [&](vfit_doubt_kind kind, size_t item, float suggested) {
+        const Expected e = expected(population, sex, person, known, item);
+        const double value = std::exp(e.mean);
+        out.push_back({kind, known[item].key, "", known[item].value, suggested, float(value),
+                       float(value * e.sd)});
+    };
+    const size_t most = known.size();
+    for (size_t round = 0; round < most; ++round) {
+        double best = log_likelihood(population, sex, person, known);
+        std::optional<Slip> found;
+        for (const Slip& slip : slips(known)) {
+            const auto list = mended(known, slip);
+            if (!plausible(list[slip.item]) || !plausible(list[slip.other])) continue;
+            const double likely = log_likelihood(population, sex, person, list) + slip.log_prior;
+            if (likely > best) best = likely, found = slip;
+        }
+        if (!found) break;
+        const auto list = mended(known, *found);
+        doubt(found->kind, found->item, list[found->item].value);
+        if (found->kind == VFIT_DOUBT_SWAPPED) out.back().other_key = known[found->other].key;
+        known = list;
+    }
+    // What nothing explains: the worst is set aside before the next one is looked for.
+    while (known.size() > 1) {
+        size_t worst = 0;
+        double apart = 0.0;
+        for (size_t i = 0; i < known.size(); ++i) {
+            const Expected e = expected(population, sex, person, known, i);
+            const double z = std::abs(std::log(double(known[i].value)) - e.mean) / e.sd;
+            if (z > apart) apart = z, worst = i;
+        }
+        if (apart < kUnlikely) break;
+        const Expected e = expected(population, sex, person, known, worst);
+        doubt(VFIT_DOUBT_UNLIKELY, worst, float(std::exp(e.mean)));
+        known.erase(known.begin() + std::ptrdiff_t(worst));
+    }
+    return out;
+}
+
+}  // namespace vfit
