@@ -11,6 +11,7 @@ void add_info(Command& app);
 void add_measure(Command& app);
 void add_calibrate(Command& app);
 void add_estimate(Command& app);
+void add_validate(Command& app);
 void add_size(Command& app);
 void add_track(Command& app);
 void add_motion(Command& app);
