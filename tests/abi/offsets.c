@@ -253,6 +253,22 @@ OFFSET(vfit_calibrated_measure, widening, 16);
 OFFSET(vfit_calibrated_measure, key, 20);
 SIZE(vfit_calibrated_measure, 68);
 
+OFFSET(vfit_person, struct_size, 0);
+OFFSET(vfit_person, sex, 4);
+OFFSET(vfit_person, age_years, 8);
+OFFSET(vfit_person, reserved, 12);
+SIZE(vfit_person, 16);
+
+OFFSET(vfit_doubt, struct_size, 0);
+OFFSET(vfit_doubt, kind, 4);
+OFFSET(vfit_doubt, value, 8);
+OFFSET(vfit_doubt, suggested, 12);
+OFFSET(vfit_doubt, expected, 16);
+OFFSET(vfit_doubt, sigma, 20);
+OFFSET(vfit_doubt, key, 24);
+OFFSET(vfit_doubt, other_key, 72);
+SIZE(vfit_doubt, 120);
+
 OFFSET(vfit_bone, struct_size, 0);
 OFFSET(vfit_bone, bone, 4);
 OFFSET(vfit_bone, rotation, 8);

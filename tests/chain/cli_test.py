@@ -386,6 +386,79 @@ class Contract(unittest.TestCase):
             self.check_failure(run("calibrate", shop, "--scan", scan), "--tape")
             self.check_failure(run("measure", VIRTUAL, "--calibration", scan), "calibration", "format")
 
+    def test_scans_are_validated_by_a_tape(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            profile = path / "anna.json"
+            told = document(self, "measure", VIRTUAL, "--profile", profile, "--json")["measurements"]
+            waist_cm = 100 * told["waist_girth_m"]["value"]
+            table = path / "tapes.csv"
+            table.write_text(
+                "scan,person,sex,waist_girth_cm,stature_m\n"
+                f"anna.json,anna,f,{waist_cm - 2},1.6\nanna.json,bea,f,{waist_cm - 1},\n"
+                f"anna.json,bea,f,{waist_cm - 1},\nlost.json,cleo,f,80,1.7\n"
+            )
+            result = document(self, "validate", folder, "--picture", path / "agreement.png", "--json")
+            self.assertEqual((result["scans"], len(result["failed"])), (4, 1))
+            self.assertIn("lost.json", result["failed"][0]["reason"])
+            waist = result["measures"]["waist_girth_m"]
+            self.assertEqual((waist["people"], waist["scans"], waist["iso_20685"]), (2, 3, "open"))
+            self.assertAlmostEqual(waist["bias"], 0.015, places=5)
+            self.assertEqual(result["measures"]["stature_m"]["people"], 1)
+            self.assertGreater((path / "agreement.png").stat().st_size, 2000)
+            self.assertIn("waist_girth_m", run("validate", table).stdout)
+            # A recording that holds its person's measures needs no table.
+            recording = path / "recordings" / "anna"
+            run("record", VIRTUAL, recording)
+            result = document(self, "validate", recording.parent, "--side-frames", 0, "--json")
+            self.assertEqual(result["failed"], [])
+            self.assertLess(abs(result["measures"]["stature_m"]["bias"]), 0.03)
+            for text, word in (
+                ("scan,girth\n", "girth"),
+                ("person,waist_girth_m\n", '"scan"'),
+                ("scan,waist_girth_m\nanna.json,wide\n", "no number"),
+                ("scan,sex\nanna.json,x\n", "neither f nor m"),
+            ):
+                table.write_text(text)
+                self.check_failure(run("validate", table), word, "tapes.csv")
+            self.check_failure(run("validate", path / "none"), "cannot be read")
+
+    def test_all_measures_are_estimated_from_a_few(self):
+        known = ("estimate", "height=5ft8in", "weight=150lb", "--sex", "f", "--age", "34")
+        with tempfile.TemporaryDirectory() as folder:
+            profile = pathlib.Path(folder) / "me.json"
+            result = document(self, *known, "--profile", profile, "--json")
+            told = result["measurements"]
+            self.assertAlmostEqual(told["stature_m"]["value"], 1.727, places=2)
+            self.assertTrue(told["stature_m"]["observed"] and not told["hip_girth_m"]["observed"])
+            self.assertEqual(result["doubts"], [])
+            more = document(self, *known, "waist=29in+-1cm", "--json")["measurements"]
+            self.assertLess(more["hip_girth_m"]["sigma"], told["hip_girth_m"]["sigma"])
+            # What comes out is what vfit size takes.
+            sizes = document(self, "size", profile, "--chart", "en13402_women", "--garment", "dress", "--json")
+            self.assertAlmostEqual(sum(s["probability"] for s in sizes["sizes"]), 1.0, places=3)
+            doubts = document(self, *known, "waist=29cm", "hip=38in", "--json")["doubts"]
+            self.assertEqual([(d["key"], d["kind"]) for d in doubts], [("waist_girth_m", "inches")])
+            self.assertIn("in inches, 73.7 cm?", run(*known, "waist=29cm", "hip=38in").stdout)
+        for arguments, word in (
+            (("height=172",), "stature_m"),
+            (("height=172cm", "--age", "7"), "age"),
+            (("height=172cm", "--population", "martians"), "martians"),
+            (("height=172cm", "stature=171cm"), "twice"),
+        ):
+            self.check_failure(run("estimate", *arguments), word)
+        for arguments, word in (
+            (("nose=5cm",), "nose"),
+            (("height=5ft8",), "without a unit"),
+            (("height=172kg",), "unit"),
+            (("height=",), "height"),
+            (("height",), "MEASURE=AMOUNT"),
+            ((), "no measure"),
+        ):
+            done = run("estimate", *arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(word, done.stderr)
+
     def test_a_profile_is_kept_and_merged(self):
         with tempfile.TemporaryDirectory() as folder:
             first, both = pathlib.Path(folder) / "first.json", pathlib.Path(folder) / "both.json"

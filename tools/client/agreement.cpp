@@ -7,7 +7,7 @@
 namespace vfit::tools {
 
 double student_t_975(uint32_t degrees) {
-    // Exact for one and two; then the expansion of Cornish and Fisher, right to 0.002 from three on.
+    // Exact for one and two; then the expansion of Cornish and Fisher, right to 0.004 at three and better from four on.
     if (degrees == 1) return 12.706;
     if (degrees == 2) return 4.303;
     const double z = 1.959964, v = double(degrees);

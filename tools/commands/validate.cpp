@@ -297,11 +297,15 @@ void add_validate(Command& app) {
     command.callback([o] {
         ByMeasure compared;
         const Json result = validate(*o, compared);
+        if (compared.empty())
+            throw Failure("no scan could be compared with a tape" +
+                          (result["failed"].empty()
+                               ? std::string()
+                               : ": " + result["failed"][0]["reason"].get<std::string>()));
         if (o->json)
             print_document(result);
         else
             print(result);
-        if (compared.empty()) throw Failure("no scan could be compared with a tape");
         if (!o->picture.empty()) draw(*o, compared);
     });
 }
