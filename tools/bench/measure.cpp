@@ -202,13 +202,9 @@ void scan(const PersonOfPopulation& person, const ScanScene& scene, uint32_t see
     if (set.is_varied())
         for (const std::string& group : groups_of(person, scene))
             add(set.tight() ? told : both, person.measures, set.groups[group]);
-    std::vector<vfit_measurement> known = typed_by(person, seed);
-    add(estimated(one.context(), person.sex, known), person.measures, set.typed);
-    for (const vfit_measurement& m : set.tight() ? told : both)
-        if (std::none_of(known.begin(), known.end(),
-                         [&](const vfit_measurement& t) { return std::string(t.key) == m.key; }))
-            known.push_back(m);
-    add(estimated(one.context(), person.sex, known), person.measures, set.both_and_typed);
+    const auto typed = estimated(one.context(), person.sex, typed_by(person, seed));
+    add(typed, person.measures, set.typed);
+    add(merged_measurements(set.tight() ? told : both, typed), person.measures, set.both_and_typed);
     judge_size(one.context(), person, both, set.letters);
     judge_size(one.context(), person, told, set.letters_told);
 }
