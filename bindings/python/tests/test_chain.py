@@ -145,9 +145,9 @@ def test_measurements_are_kept_as_text_and_merged():
         vfit.read_measurements("{")
 
 
-def test_all_measures_follow_from_those_that_a_person_knows(context):
-    assert "adults" in context.populations()
-    adults = vfit.Population.open(context, "adults")
+def test_all_measures_follow_from_those_that_a_person_knows(ctx):
+    assert "adults" in ctx.populations()
+    adults = vfit.Population.open(ctx, "adults")
     known = {"stature_m": 1.7, "body_mass_kg": 65.0}
     all_measures = adults.estimate(known, sex="f", age=40)
     assert 0.9 < all_measures["hip_girth_m"].value < 1.1
@@ -159,7 +159,7 @@ def test_all_measures_follow_from_those_that_a_person_knows(context):
     with pytest.raises(vfit.ArgumentError):
         adults.estimate(known, age=7)
     with pytest.raises(vfit.DataError):
-        vfit.Population.load(context, "{}")
+        vfit.Population.load(ctx, "{}")
 
 
 def test_scans_are_calibrated_to_a_tape():
