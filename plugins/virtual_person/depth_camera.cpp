@@ -15,6 +15,8 @@ Vec3 DepthCamera::to_camera(const Vec3& world) const {
     return glm::transpose(rotation_) * (world - Vec3(0, place_.height_m, 0));
 }
 
+Vec3 DepthCamera::to_world(const Vec3& p) const { return rotation_ * p + Vec3(0, place_.height_m, 0); }
+
 Vec2 DepthCamera::project(const Vec3& p) const {
     return {p.x / p.z * model_.fx + model_.cx, p.y / p.z * model_.fy + model_.cy};
 }

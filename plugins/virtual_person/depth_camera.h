@@ -31,6 +31,7 @@ public:
     /// Rotation part of world-from-camera; its origin is (0, height, 0).
     const Mat3& world_from_camera() const { return rotation_; }
     Vec3 to_camera(const Vec3& world) const;
+    Vec3 to_world(const Vec3& camera_point) const;
     /// Pixel of a point with z > 0.
     Vec2 project(const Vec3& camera_point) const;
 

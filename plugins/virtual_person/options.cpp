@@ -62,6 +62,8 @@ constexpr Entry kEntries[] = {
      "Thickness of the top on the trunk, in metres; below 0: as clothing says"},
     {"sleeves", Kind::kNumber, "-1", -1, 0.1, "The same of its sleeves"},
     {"trousers", Kind::kNumber, "-1", -1, 0.1, "The same of the trousers"},
+    {"black_hair", Kind::kNumber, "0", 0, 0.2,
+     "How far down from the crown the person comes without a reading, as black hair does, in metres"},
     {"people", Kind::kWhole, "1", 0, 3,
      "How many; those beside the first are drawn by seed; 0: an empty room"},
     {"furniture", Kind::kFurniture, "", 0, 0, "In the room: any of chair, rack, stool, separated by commas"},

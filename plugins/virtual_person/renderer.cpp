@@ -1,5 +1,6 @@
 #include "renderer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -47,6 +48,7 @@ Renderer::Renderer(vfit_context context, const Options& options, const RandomBod
       person_(context, body.sex, static_cast<uint32_t>(options.whole("detail")), body.shape),
       camera_(model_, place_of(options), room_of(options)),
       noise_(model_, noise_of(options)),
+      black_hair_m_(static_cast<float>(options.number("black_hair"))),
       surroundings_(context, options, model_, place_of(options), camera_, stand_) {
     const std::string& bvh = options.text("bvh");
     motion_ = bvh.empty()
@@ -81,12 +83,33 @@ void Renderer::advance(uint64_t frame) {
     pose_.rotation[VFIT_BONE_HIPS] = facing_ * pose_.rotation[VFIT_BONE_HIPS];
     person_.pose(pose_, stand_);
     camera_.render(person_.positions(), clean_);
+    if (has_person_ && black_hair_m_ > 0.0f) find_hair();
     if (!surroundings_.empty())
         picture_ = &surroundings_.complete(clean_, static_cast<double>(frame) * frame_time_s_);
 }
 
+void Renderer::find_hair() {
+    const float* skin = person_.positions();
+    float crown = skin[1];
+    for (size_t v = 1; v < person_.vertex_count(); ++v) crown = std::max(crown, skin[3 * v + 1]);
+    swallowed_.clear();
+    for (uint32_t y = 0; y < clean_.height; ++y)
+        for (uint32_t x = 0; x < clean_.width; ++x) {
+            const uint32_t i = y * clean_.width + x;
+            if (clean_.user[i] == 0) continue;
+            const float z = clean_.depth_m[i];
+            const Vec3 seen(z * (static_cast<float>(x) - model_.cx) / model_.fx,
+                            z * (static_cast<float>(y) - model_.cy) / model_.fy, z);
+            if (camera_.to_world(seen).y > crown - black_hair_m_) swallowed_.push_back(i);
+        }
+}
+
 void Renderer::write_depth(uint16_t* pixels, uint32_t row_stride) {
     noise_.apply(clean(), frame_, pixels, row_stride);
+    for (const uint32_t i : swallowed_) {
+        auto* row = reinterpret_cast<unsigned char*>(pixels) + size_t{i / clean_.width} * row_stride;
+        reinterpret_cast<uint16_t*>(row)[i % clean_.width] = 0;
+    }
 }
 
 void Renderer::write_user_map(uint8_t* pixels, uint32_t row_stride) const {
@@ -94,6 +117,7 @@ void Renderer::write_user_map(uint8_t* pixels, uint32_t row_stride) const {
     for (uint32_t y = 0; y < image.height; ++y)
         std::memcpy(pixels + size_t{y} * row_stride, image.user.data() + size_t{y} * image.width,
                     image.width);
+    for (const uint32_t i : swallowed_) pixels[size_t{i / image.width} * row_stride + i % image.width] = 0;
 }
 
 const std::vector<SeenBody>& Renderer::bodies() {

@@ -43,6 +43,8 @@ public:
 
 private:
     Renderer(vfit_context context, const Options& options, const RandomBody& body);
+    /// Pixels of the person that lie above what the hair leaves to see.
+    void find_hair();
 
     const SensorModel& model_;
     double frame_time_s_;
@@ -53,6 +55,8 @@ private:
     std::unique_ptr<Motion> motion_;
     DepthCamera camera_;
     SensorNoise noise_;
+    float black_hair_m_;
+    std::vector<uint32_t> swallowed_;  // pixels of the hair
     CleanImage clean_;  // the person of the options in the bare room
     Surroundings surroundings_;
     const CleanImage* picture_ = &clean_;

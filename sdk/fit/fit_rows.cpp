@@ -20,6 +20,9 @@ constexpr float kRimCosine =
     0.35f;  // of a normal to the line of sight: the vertex is on the model's own outline
 constexpr int kOutwardCells = 8;      // about 10 cm
 constexpr float kSameLimb_m = 0.12f;  // in depth
+// Beyond the person's last cell, without a reading before the background begins: wider than sensors lose of an
+// outline, not so wide that nothing is behind.
+constexpr float kHidden_m = 0.025f, kHiddenReach_m = 0.20f;
 // Of the weight of other joints: under clothes the network takes the trousers' crotch for the body's.
 constexpr float kHipShare = 0.1f;
 
@@ -64,6 +67,19 @@ float uncovered_cells(const FitView& view, const FitRaster& raster, const Vec2& 
         last = float(i);
     }
     return last;
+}
+
+/// Whether the outline is not seen: from the person's cell on along `step` there is no reading for a while, and
+/// then there is the background.
+bool hides_outline(const FitView& view, const Vec2& from, const Vec2& step, float cell_m) {
+    for (int i = 1; float(i) * cell_m < kHiddenReach_m; ++i) {
+        const int x = int(std::lround(from.x + float(i) * step.x)),
+                  y = int(std::lround(from.y + float(i) * step.y));
+        if (!view.inside(x, y)) return false;
+        if (view.cell(x, y) != FitCell::kFree)
+            return view.cell(x, y) == FitCell::kOther && float(i - 1) * cell_m > kHidden_m;
+    }
+    return false;
 }
 
 /// Of z |(x/z, y/z) - a ray| by the point, the ray's depth moving along; `unit` points from the ray to the
@@ -113,6 +129,7 @@ uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitRas
                           const FitWeights& weights, FitEquations& equations) {
     const float weight = weights.outline_share / (weights.outline_m * weights.outline_m);
     const float cell_angle = view.ray(1.0f, 0.0f).x - view.ray(0.0f, 0.0f).x;
+    const Vec3 head = body.joints()[VFIT_JOINT_HEAD], up = head - body.joints()[VFIT_JOINT_NECK];
     uint32_t rows = 0;
     for (uint32_t v = 0; v < body.model().vertex_count(); ++v) {
         const Vec3& p = body.positions()[v];
@@ -143,6 +160,10 @@ uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitRas
         const Vec3 edge = view.ray(float(found_x), float(found_y));
         const Vec2 out(p.x / p.z - edge.x, p.y / p.z - edge.y);
         const float angle = glm::length(out);
+        // Black hair gives no reading: the head may reach into it.
+        if (cell == FitCell::kFree && glm::dot(p - head, up) > 0.0f &&
+            hides_outline(view, Vec2(found_x, found_y), glm::normalize(at - Vec2(found_x, found_y)), cell_m))
+            continue;
         // Half a cell belongs to the person's side.
         const float outside = p.z * angle - 0.5f * cell_m;
         if (outside <= 0.0f || angle < 1e-6f) continue;

@@ -14,6 +14,9 @@ constexpr float kCrownHalfWidth_m =
     0.02f;                             // columns about the head's middle: the crown is all but level there
 constexpr float kHeadReach_m = 0.30f;  // from the head's middle up to the highest crown, hair included
 constexpr int kFewestColumns = 3;
+// Above a head: longer without a reading than any sensor's outline is, and a background beyond.
+constexpr float kHidden_m = 0.02f, kHairReach_m = 0.15f;
+constexpr int kHidden_px = 3;
 
 }  // namespace
 
@@ -49,6 +52,13 @@ float BodyScan::outline_loss_m() const {
     return sums_.frames ? outline_loss_px() * float(sums_.pixel_m / sums_.frames) : 0.0f;
 }
 
+float BodyScan::unseen_crown_m() const {
+    if (sums_.crowns == 0) return 0.0f;
+    const float unseen = float(sums_.gap_m / sums_.crowns) - 2.0f * outline_loss_m(),
+                pixel_m = float(sums_.pixel_m / sums_.frames);
+    return unseen > pixel_m ? unseen : 0.0f;
+}
+
 std::array<float, size_t(TurnBreadths::kLevels)> BodyScan::turned_girths_m() const {
     // Below the hip joints two legs apart make the outline.
     constexpr float kLowest = -0.08f;  // of the way from the hip joints to the neck
@@ -75,17 +85,20 @@ ViewKind BodyScan::add(const DepthImage& image, const Body& body) {
     sums_.turned_rad[size_t(view)] += turned;
     sums_.turned_squared[size_t(view)] += turned * turned;
     sums_.pixel_m += double(fit().pose.hips.z / std::sqrt(image.camera.fx * image.camera.fy));
-    if (const float crown = crown_height(image, user); crown > 0.0f) {
-        sums_.crown_m += double(crown);
+    if (const Top top = top_of_head(image, user); top.hidden) {
+        sums_.bound_m += double(top.height_m);
+        ++sums_.bounds;
+    } else if (top.height_m > 0.0f) {
+        sums_.crown_m += double(top.height_m), sums_.gap_m += double(top.gap_m);
         ++sums_.crowns;
     }
     return view;
 }
 
 /// Mean over a few columns, as single outline pixels are off to either side.
-float BodyScan::crown_height(const DepthImage& image, uint8_t user) const {
+BodyScan::Top BodyScan::top_of_head(const DepthImage& image, uint8_t user) const {
     const Vec3 head = fit_.body().joints()[VFIT_JOINT_HEAD];
-    if (head.z <= 0.1f) return 0.0f;
+    if (head.z <= 0.1f) return {};
     const Camera& camera = image.camera;
     const Vec3& up = camera.floor_normal;
     const Vec2 at = camera.project(head), above = camera.project(head + kHeadReach_m * up);
@@ -93,17 +106,32 @@ float BodyScan::crown_height(const DepthImage& image, uint8_t user) const {
     const Vec2 way = above - at;
     const float length =
         std::min(glm::length(way), float(image.width() + image.height()));  // whatever the lens
-    if (!(length >= 4.0f)) return 0.0f;
+    if (!(length >= 4.0f)) return {};
     const Vec2 step = glm::normalize(way), aside(-step.y, step.x);
     const int half =
         std::clamp(int(std::lround(kCrownHalfWidth_m * camera.fx / head.z)), 1, int(image.width()));
-    const auto belongs = [&](const Vec2& p) {
+    // Of the image; nothing beyond its border.
+    const auto pixel = [&](const Vec2& p) -> std::optional<size_t> {
         const int x = int(std::lround(p.x)), y = int(std::lround(p.y));
-        return x >= 0 && y >= 0 && x < int(image.width()) && y < int(image.height()) &&
-               image.users[image.index(uint32_t(x), uint32_t(y))] == user;
+        if (x < 0 || y < 0 || x >= int(image.width()) || y >= int(image.height())) return std::nullopt;
+        return image.index(uint32_t(x), uint32_t(y));
     };
-    float sum = 0.0f;
-    int columns = 0;
+    const auto belongs = [&](const Vec2& p) {
+        const auto at_p = pixel(p);
+        return at_p && image.users[*at_p] == user;
+    };
+    const float pixel_m = kHeadReach_m / length;
+    // Pixels without a reading between that one of a column and the background; 0: nothing is behind.
+    const auto gap_above = [&](const Vec2& column, float last) {
+        for (int gap = 0; float(gap) * pixel_m < kHairReach_m; ++gap) {
+            const auto at_p = pixel(column + (last + 1.0f + float(gap)) * step);
+            if (!at_p) return 0;
+            if (image.depth[*at_p] != 0) return gap;
+        }
+        return 0;
+    };
+    float sum = 0.0f, gaps_m = 0.0f;
+    int columns = 0, hidden = 0;
     for (int c = -half; c <= half; ++c) {
         float last = -1.0f;
         for (float i = 0.0f; i < length; i += 1.0f)
@@ -116,8 +144,12 @@ float BodyScan::crown_height(const DepthImage& image, uint8_t user) const {
         const Vec3 p = camera.unproject(top.x, top.y, head.z);
         sum += glm::dot(up, p) + camera.floor_distance_m;
         ++columns;
+        const int gap = gap_above(at + float(c) * aside, last);
+        gaps_m += float(gap) * pixel_m;
+        hidden += gap >= kHidden_px && float(gap) * pixel_m > kHidden_m;
     }
-    return columns >= kFewestColumns ? sum / float(columns) : 0.0f;
+    if (columns < kFewestColumns) return {};
+    return {sum / float(columns), gaps_m / float(columns), 2 * hidden > columns};
 }
 
 ScanFeatures BodyScan::features(bool side) const {
@@ -127,7 +159,10 @@ ScanFeatures BodyScan::features(bool side) const {
     size_t n = 0;
     for (const float value : shape()) out[n++] = value;
     const float unseen = std::nanf("");
-    out[n++] = sums_.crowns ? float(sums_.crown_m / sums_.crowns) : unseen;
+    // Anywhere in what is unseen, as likely at its end as at its start.
+    out[n++] = sums_.crowns && !crown_is_hidden()
+                   ? float(sums_.crown_m / sums_.crowns) + 0.5f * unseen_crown_m()
+                   : unseen;
     out[n++] = float(sums_.distance_m / sums_.frames);
     out[n++] = kMillimetres * float(sums_.pixel_m / sums_.frames);
     const auto counts = [&](ViewKind view) { return side || view != ViewKind::kSide; };

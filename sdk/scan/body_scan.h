@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -62,6 +63,12 @@ public:
     /// The shape of all frames together.
     const FitShape& shape() const { return fit_.output().pose.shape; }
     const BodyFitOutput& fit() const { return fit_.output(); }
+    /// Where the readings of a head end below hair that gives none, metres above the floor: stature is more. 0:
+    /// the crown is seen.
+    float stature_bound_m() const { return crown_is_hidden() ? float(sums_.bound_m / sums_.bounds) : 0.0f; }
+    /// How much the crown may lie higher or lower than features() tell, where the last reading of the head and the
+    /// first of the background lie a little farther apart than elsewhere; standard deviation.
+    float crown_sigma_m() const { return unseen_crown_m() / std::sqrt(12.0f); }
     /// What the sensor loses of outlines; features() has it added to all that is read off outlines.
     float outline_loss_px() const { return outline_loss_.pixels(); }
 
@@ -70,8 +77,16 @@ private:
     bool run_fit(const DepthImage& image, const Body& body);
     /// What the sensor loses of an outline, metres at the person.
     float outline_loss_m() const;
-    /// Of the highest point over the floor; 0 where the head is cut or nothing of it is seen.
-    float crown_height(const DepthImage& image, uint8_t user) const;
+    struct Top {
+        float height_m = 0.0f;  // over the floor; 0: the head is cut or nothing of it is seen
+        float gap_m = 0.0f;     // from there to the background, where that is seen
+        bool hidden = false;    // so far that hair must lie between
+    };
+    Top top_of_head(const DepthImage& image, uint8_t user) const;
+    bool crown_is_hidden() const { return sums_.bounds > sums_.crowns; }
+    /// Of the crown, between the last reading and the background, beyond what the sensor loses anyway; 0 where it
+    /// is within a pixel.
+    float unseen_crown_m() const;
 
     std::shared_ptr<const FitModel> model_;
     BodyFit fit_;
@@ -80,9 +95,9 @@ private:
     TurnBreadths turn_;
     OutlineLoss outline_loss_;
     struct Sums {
-        double crown_m = 0.0, distance_m = 0.0, pixel_m = 0.0;
+        double crown_m = 0.0, gap_m = 0.0, bound_m = 0.0, distance_m = 0.0, pixel_m = 0.0;
         std::array<double, kViewKinds> turned_rad{}, turned_squared{};  // from the view
-        uint32_t crowns = 0, frames = 0;
+        uint32_t crowns = 0, bounds = 0, frames = 0;
     } sums_;
 };
 

@@ -39,6 +39,18 @@ bool arms_out(const Body& body) {
     return true;
 }
 
+/// The measure of somebody of whom it is known that it is larger: the normal distribution's upper part.
+Measurement above(Measurement m, float bound) {
+    const double from = double(bound - m.value) / double(m.sigma);
+    if (from < -4.0) return m;
+    const double pi = double(kPi), density = std::exp(-0.5 * from * from) / std::sqrt(2.0 * pi),
+                 beyond = std::max(1e-12, 0.5 * std::erfc(from / std::sqrt(2.0)));
+    const double ratio = density / beyond;  // Mills's, inverted
+    m.value += float(double(m.sigma) * ratio);
+    m.sigma *= float(std::sqrt(std::max(0.01, 1.0 + from * ratio - ratio * ratio)));
+    return m;
+}
+
 }  // namespace
 
 PersonScan::PersonScan(const PersonScanDesc& desc) : desc_(desc), paper_(desc.paper) {
@@ -130,6 +142,12 @@ std::vector<Measurement> PersonScan::measurements() const {
         combine_with_turn(out, seen_measures(std::nanf(""), body_->turned_girths_m(), female),
                           desc_.measure_model->turned(desc_.tight, female));
     }
+    for (Measurement& m : out)
+        if (m.key == "stature_m") {
+            m.sigma = std::hypot(m.sigma, body_->crown_sigma_m());
+            if (std::isnan(features()[kCrownFeature])) m.observed = false;
+            if (const float bound = body_->stature_bound_m(); bound > 0.0f) m = above(m, bound);
+        }
     if (!desc_.bare)
         for (Measurement& m : out)
             if (m.key == "stature_m") m.sigma = std::hypot(m.sigma, kHairAndShoes_m);

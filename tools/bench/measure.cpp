@@ -204,7 +204,8 @@ void scan(const PersonOfPopulation& person, const ScanScene& scene, uint32_t see
             add(set.tight() ? told : both, person.measures, set.groups[group]);
     const auto typed = estimated(one.context(), person.sex, typed_by(person, seed));
     add(typed, person.measures, set.typed);
-    add(merged_measurements(set.tight() ? told : both, typed), person.measures, set.both_and_typed);
+    // Where the crown is hidden the statures may be those of two people.
+    if (!set.hair) add(merged_measurements(set.tight() ? told : both, typed), person.measures, set.both_and_typed);
     judge_size(one.context(), person, both, set.letters);
     judge_size(one.context(), person, told, set.letters_told);
 }
@@ -271,6 +272,7 @@ void run(const Options& o) {
                                     {"varied clothed", BodySpace::kVaried, Dress::kClothed},
                                     {"turn", BodySpace::kVaried, Dress::kTight, true},
                                     {"turn clothed", BodySpace::kVaried, Dress::kClothed, true},
+                                    {"black hair", BodySpace::kVaried, Dress::kTight, false, true},
                                     {"in space", BodySpace::kInside, Dress::kTight},
                                     {"off space", BodySpace::kOutside, Dress::kTight},
                                     {"clothed", BodySpace::kOutside, Dress::kClothed}};
@@ -284,8 +286,11 @@ void run(const Options& o) {
         if (!population || made != set.space)
             population = std::make_unique<VirtualPeople>(body, made = set.space, o.seed);
         for (uint32_t p = o.first; p < o.first + o.count; ++p)
-            scan(population->draw(p), ScanScene::draw(set.dress, o.seed * 104729u + p), o.seed * 104729u + p,
-                 o.told_sex, set);
+        {
+            const uint32_t seed = o.seed * 104729u + p;
+            const ScanScene scene = ScanScene::draw(set.dress, seed);
+            scan(population->draw(p), set.hair ? scene.with_black_hair() : scene, seed, o.told_sex, set);
+        }
         if (!o.json) print(set);
         judge(set, targets);
         const double n = std::max(1u, set.letters.people);
@@ -329,7 +334,7 @@ void add_measure(Command& app) {
     command.add_option("--first", o->first, "Number of the first");
     command.add_option("--seed", o->seed, "Of the population; those of training are 1000 and above");
     command.add_option("--only", o->only,
-                       "Sets whose name begins so: varied, varied clothed, turn, turn clothed, "
+                       "Sets whose name begins so: varied, varied clothed, turn, turn clothed, black hair, "
                        "in space, off space, clothed, repeated "
                        "(in space, off space, in clothes)");
     command.add_flag("--told-sex", o->told_sex, "Tell the scan the person's sex");

@@ -203,6 +203,15 @@ void print(const MeasureSet& set) {
 }
 
 void judge(const MeasureSet& set, Targets& targets) {
+    if (set.hair) {
+        if (const auto at = set.both_told.find("stature_m"); at != set.both_told.end()) {
+            targets.judge(set.name + ": stature_m, front and side", 1000 * at->second.mean(), Aim::at_most, 4, 1,
+                          " mm");
+            targets.judge(set.name + ": stature_m, 90 % intervals cover", at->second.covered(), Aim::at_least,
+                          0.9, 3);
+        }
+        return;
+    }
     if (set.is_varied())
         judge_varied(set, targets);
     else

@@ -63,6 +63,7 @@ struct MeasureSet {
     BodySpace space;
     Dress dress;
     bool turn = false;  // after the front a turn on the spot instead of the side
+    bool hair = false;  // black: 3 to 12 cm of the crown come without a reading
     bool is_varied() const { return space == BodySpace::kVaried; }
     // Of a scan that is told nothing of clothes, and of one that is told that they are tight; both: of the
     // front and the side, or the turn.

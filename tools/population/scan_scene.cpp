@@ -18,6 +18,7 @@ std::string text_of(float value) {
 
 // Nearer, a Kinect v1 does not see head and feet at once; a time-of-flight camera sees more.
 constexpr float kNearestKinect_m = 2.65f, kNearestTof_m = 2.4f, kFarthest_m = 3.1f, kTall_m = 1.85f;
+constexpr float kWall_m = 0.7f;
 constexpr float kThickest_m = 0.03f;
 // The camera's height: half of them about a metre, the others from a low table up to a shelf.
 constexpr float kLowest_m = 0.6f, kHighest_m = 1.6f, kUsualLeast_m = 0.9f, kUsualMost_m = 1.1f;
@@ -55,6 +56,12 @@ ScanScene ScanScene::draw(Dress dress, uint32_t seed) {
     return scene;
 }
 
+ScanScene ScanScene::with_black_hair() const {
+    ScanScene scene = *this;
+    scene.black_hair_m = Random(seed ^ 0xb1acu).between(0.03f, 0.12f);
+    return scene;
+}
+
 ScanScene ScanScene::again(uint32_t day) const {
     constexpr float kNear_m = 0.1f, kTurn_deg = 5.0f;
     Random random(seed * 7919u + day);
@@ -77,6 +84,8 @@ std::string ScanScene::uri(const PersonOfPopulation& person) const {
         << "&distance=" << double(distance_m) + far << "&camera_height=" << camera_height_m
         << "&tilt=" << tilt_deg << "&floor=" << (floor_given ? "given" : "unknown") << "&top=" << top_m
         << "&sleeves=" << sleeves_m << "&trousers=" << trousers_m;
+    // Before a wall that both sensors see: without one nobody can tell where the head ends.
+    if (black_hair_m > 0.0f) out << "&black_hair=" << black_hair_m << "&wall=" << kWall_m;
     return out.str();
 }
 

@@ -23,11 +23,14 @@ struct ScanScene {
     float turned_deg = 0.0f, side_turned_deg = 90.0f, arms_deg = 35.0f, side_arms_deg = 37.0f,
           turn_arms_deg = 42.0f;
     float top_m = 0.0f, sleeves_m = 0.0f, trousers_m = 0.0f;
+    float black_hair_m = 0.0f;  // of the crown, without a reading
     uint32_t front_frames = 30, side_frames = 15, turn_frames = 144, seed = 1;
 
     /// A Kinect v1 or a time-of-flight camera on a stand or a shelf, looking at the middle of the person, as
     /// near as it sees all of them or up to 3.1 m away; clothes as said.
     static ScanScene draw(Dress dress, uint32_t seed);
+    /// The same, and 3 to 12 cm of the crown under black hair.
+    ScanScene with_black_hair() const;
     /// The same clothes before the same camera on another day: another seed of noise and sway, another place
     /// to stand.
     ScanScene again(uint32_t day) const;
