@@ -691,9 +691,9 @@ enum {
 typedef struct vfit_doubt {
     uint32_t struct_size;
     vfit_doubt_kind kind;
-    float value;            /* as it was given */
-    float suggested;        /* what the slip makes of it; of VFIT_DOUBT_UNLIKELY: as expected */
-    float expected, sigma;  /* by the others */
+    float value;           /* as it was given */
+    float suggested;       /* what the slip makes of it; of VFIT_DOUBT_UNLIKELY: as expected */
+    float expected, sigma; /* by the others */
     char key[48], other_key[48];
 } vfit_doubt;
 VFIT_STRUCT(vfit_person)
@@ -761,8 +761,8 @@ VFIT_API vfit_result vfit_calibration_apply(const void* text, uint64_t byte_coun
                                             const vfit_measurement* scanned, uint32_t scanned_stride,
                                             uint32_t scanned_count, vfit_measurement* items, uint32_t stride,
                                             uint32_t* count);
-/* How the measures of people go together (docs/measuring.md): what the measures that a person knows make likely
- * of all the others. Names of those in data_dir/populations, in alphabetical order. [any] */
+/* How the measures of people go together (docs/measuring.md): what the measures that a person knows make
+ * likely of all the others. Names of those in data_dir/populations, in alphabetical order. [any] */
 VFIT_API vfit_result vfit_population_list(vfit_context context, vfit_data_name* items, uint32_t stride,
                                           uint32_t* count);
 /* A population as JSON, or by the name of a file in data_dir/populations. [any] */
@@ -770,16 +770,16 @@ VFIT_API vfit_result vfit_population_load(vfit_context context, const void* byte
                                           vfit_population* out);
 VFIT_API vfit_result vfit_population_open(vfit_context context, const char* name, vfit_population* out);
 VFIT_API vfit_result vfit_population_destroy(vfit_population population); /* [any] */
-/* Every measure that the population has, of a person of whom those in known are known: typed, taped or scanned,
- * each with its sigma (0: as exact as people know it of themselves). person null: sex and age unknown. Given
- * measures are observed and come closer to what the others say; of the others value and sigma are what is
- * likely. Measures that the population has not are passed through. [read] */
+/* Every measure that the population has, of a person of whom those in known are known: typed, taped or
+ * scanned, each with its sigma (0: as exact as people know it of themselves). person null: sex and age
+ * unknown. Given measures are observed and come closer to what the others say; of the others value and sigma
+ * are what is likely. Measures that the population has not are passed through. [read] */
 VFIT_API vfit_result vfit_population_estimate(vfit_population population, const vfit_person* person,
                                               const vfit_measurement* known, uint32_t known_stride,
                                               uint32_t known_count, vfit_measurement* items, uint32_t stride,
                                               uint32_t* count);
-/* Which of these is probably wrong? An item for each measure that does not go with the others, the worst first;
- * none is often right: with two measures it cannot be told which one it is. [read] */
+/* Which of these is probably wrong? An item for each measure that does not go with the others, the worst
+ * first; none is often right: with two measures it cannot be told which one it is. [read] */
 VFIT_API vfit_result vfit_population_check(vfit_population population, const vfit_person* person,
                                            const vfit_measurement* known, uint32_t known_stride,
                                            uint32_t known_count, vfit_doubt* items, uint32_t stride,

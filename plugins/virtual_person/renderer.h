@@ -57,7 +57,7 @@ private:
     SensorNoise noise_;
     float black_hair_m_;
     std::vector<uint32_t> swallowed_;  // pixels of the hair
-    CleanImage clean_;  // the person of the options in the bare room
+    CleanImage clean_;                 // the person of the options in the bare room
     Surroundings surroundings_;
     const CleanImage* picture_ = &clean_;
     BonePose pose_;

@@ -56,8 +56,8 @@ struct Slip {
     double log_prior;
 };
 
-/// Numbers that were meant, if one digit of this one is wrong or two neighbours changed places. In centimetres,
-/// or kilograms, to the millimetre or the hundred grams.
+/// Numbers that were meant, if one digit of this one is wrong or two neighbours changed places. In
+/// centimetres, or kilograms, to the millimetre or the hundred grams.
 std::vector<float> meant_numbers(float value, bool mass) {
     const int digits = int(std::lround(value * (mass ? 10.0f : 1000.0f)));
     std::vector<float> out;
@@ -123,8 +123,8 @@ std::vector<Doubt> find_doubts(const PopulationModel& population, const Person& 
     const auto doubt = [&](vfit_doubt_kind kind, size_t item, float suggested) {
         const Expected e = expected(population, sex, person, known, item);
         const double value = std::exp(e.mean);
-        out.push_back({kind, known[item].key, "", known[item].value, suggested, float(value),
-                       float(value * e.sd)});
+        out.push_back(
+            {kind, known[item].key, "", known[item].value, suggested, float(value), float(value * e.sd)});
     };
     const size_t most = known.size();
     for (size_t round = 0; round < most; ++round) {

@@ -16,8 +16,8 @@ struct Doubt {
     float expected = 0.0f, sigma = 0.0f;  // by the others
 };
 
-/// Slips are tried one after the other, each time the one after which the list is likeliest, while it makes it
-/// likelier than its own rarity takes away. The worst first. Errors as those of PopulationModel::estimate.
+/// Slips are tried one after the other, each time the one after which the list is likeliest, while it makes
+/// it likelier than its own rarity takes away. The worst first. Errors as those of PopulationModel::estimate.
 std::vector<Doubt> find_doubts(const PopulationModel& population, const Person& person,
                                std::vector<Measurement> known);
 

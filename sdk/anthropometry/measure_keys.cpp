@@ -47,8 +47,8 @@ constexpr MeasureKey kKeys[] = {
     {"hip_depth_m", "horizontal extent from front to back of the section of hip_girth_m", 0.03f, 0.9f},
     {"hand_length_m", "wrist to the tip of the middle finger", 0.02f, 0.4f},
     {"body_mass_kg", "what a scale shows, without clothes; in kilograms", 1.0f, 700.0f},
-    {"waist_navel_girth_m", "horizontal girth at the height of the navel, as ANSUR II measures the waist", 0.12f,
-     3.5f},
+    {"waist_navel_girth_m", "horizontal girth at the height of the navel, as ANSUR II measures the waist",
+     0.12f, 3.5f},
     {"waist_minimum_girth_m", "smallest horizontal girth between navel and rib arch", 0.12f, 3.5f},
 };
 

@@ -138,7 +138,7 @@ PopulationModel::Belief PopulationModel::prior(vfit_sex sex, const std::optional
         if (!(*age_years >= kYoungest && *age_years <= kOldest))
             fail(VFIT_ERROR_ARGUMENT, "age_years ", *age_years, " is not ", kYoungest, " to ", kOldest,
                  "; 0: not told");
-        belief.observe(0, double(*age_years), kAgeError * kAgeError);
+        belief.observe(0, double(*age_years), kAgeError* kAgeError);
         belief.log_likelihood = 0.0;  // people of any age are of both sexes
     }
     return belief;

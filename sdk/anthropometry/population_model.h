@@ -18,8 +18,8 @@ struct Person {
     std::optional<float> age_years;
 };
 
-/// By sex a normal distribution of the logarithms of measures and of the age in years. In logarithms girths are
-/// linear in body mass and stature over all of BMI 16 to 45, and a sigma is a fraction of the measure.
+/// By sex a normal distribution of the logarithms of measures and of the age in years. In logarithms girths
+/// are linear in body mass and stature over all of BMI 16 to 45, and a sigma is a fraction of the measure.
 class PopulationModel {
 public:
     /// Of the person's logarithms, as known so far.
@@ -40,9 +40,10 @@ public:
     /// In the order of measure_keys(); the age, "age_years", is none of them.
     const std::vector<std::string>& keys(vfit_sex sex) const { return of(sex).keys; }
 
-    /// Every measure of the population, of an unknown sex those that both sexes have; known ones are observed. A
-    /// known sigma of 0 is that of a typed measure. Known measures that the population has not are passed
-    /// through. A key that is known twice, or an age that no adult has: VFIT_ERROR_DATA, VFIT_ERROR_ARGUMENT.
+    /// Every measure of the population, of an unknown sex those that both sexes have; known ones are
+    /// observed. A known sigma of 0 is that of a typed measure. Known measures that the population has not
+    /// are passed through. A key that is known twice, or an age that no adult has: VFIT_ERROR_DATA,
+    /// VFIT_ERROR_ARGUMENT.
     std::vector<Measurement> estimate(const Person& person, const std::vector<Measurement>& known) const;
 
     /// What is likely before a measure is known; the first of its mean is the age.

@@ -23,8 +23,8 @@ float waist_share(vfit_sex sex);
 /// The navel, by the share at which it lies in people on the same way.
 float navel_height(const TapeMesh& body);
 
-/// Level of the smallest girth between navel and rib arch. Stout bodies, which have no narrow waist, have it at
-/// one end.
+/// Level of the smallest girth between navel and rib arch. Stout bodies, which have no narrow waist, have it
+/// at one end.
 float minimum_waist_height(const TapeMesh& body);
 
 /// The bust point of the side: the middle of what stands out farthest before the straight line from the front

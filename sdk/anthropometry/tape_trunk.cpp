@@ -15,8 +15,8 @@ namespace {
 /// (0.630 - 0.519) / (0.857 - 0.519), men (0.621 - 0.513) / (0.864 - 0.513) of stature.
 constexpr float kWaistShareWomen = 0.328f, kWaistShareMen = 0.308f;
 
-/// The same of the navel, which lies at 0.602 of stature in women and in men (waistheightomphalion; from person to
-/// person 0.035 of the way, 1 cm and a half).
+/// The same of the navel, which lies at 0.602 of stature in women and in men (waistheightomphalion; from
+/// person to person 0.035 of the way, 1 cm and a half).
 constexpr float kNavelShareWomen = 0.245f, kNavelShareMen = 0.252f;
 
 /// The rib arch as a share of the way from the waist to the foot of the neck; the bust and a man's chest lie

@@ -1,4 +1,5 @@
-// vfit.h, part "scan -> measurements -> size": what the measures that a person knows make likely of the others.
+// vfit.h, part "scan -> measurements -> size": what the measures that a person knows make likely of the
+// others.
 #include "anthropometry/measure_doubts.h"
 #include "anthropometry/population_model.h"
 #include "api/context.h"
@@ -52,8 +53,7 @@ vfit_result vfit_population_load(vfit_context handle, const void* bytes, uint64_
         if (byte_count > kMaxPopulationBytes)
             fail(VFIT_ERROR_ARGUMENT, "byte_count ", byte_count, " is too large");
         auto model = parsed({static_cast<const std::byte*>(bytes), static_cast<size_t>(byte_count)});
-        out->id =
-            context->publish(Kind::population, make<PopulationObject>(context.ref(), std::move(model)));
+        out->id = context->publish(Kind::population, make<PopulationObject>(context.ref(), std::move(model)));
         return VFIT_OK;
     });
 }
@@ -64,9 +64,9 @@ vfit_result vfit_population_open(vfit_context handle, const char* name, vfit_pop
         out->id = 0;
         UseContext<Mode::any> context(handle);
         check_pointer(name, "name");
-        auto model = parsed(read_file(data_file(context->data_dir, "populations", name), kMaxPopulationBytes));
-        out->id =
-            context->publish(Kind::population, make<PopulationObject>(context.ref(), std::move(model)));
+        auto model =
+            parsed(read_file(data_file(context->data_dir, "populations", name), kMaxPopulationBytes));
+        out->id = context->publish(Kind::population, make<PopulationObject>(context.ref(), std::move(model)));
         return VFIT_OK;
     });
 }

@@ -37,8 +37,8 @@ struct Slot {
 }  // namespace
 
 const char* kind_name(Kind kind) {
-    constexpr const char* names[] = {"null",  "context",    "sensor", "frame",  "tracker",
-                                     "scan",  "size chart", "motion", "avatar", "garment",
+    constexpr const char* names[] = {"null",  "context",    "sensor", "frame",     "tracker",
+                                     "scan",  "size chart", "motion", "avatar",    "garment",
                                      "cloth", "recorder",   "prop",   "population"};
     const auto i = static_cast<size_t>(kind);
     return i < std::size(names) ? names[i] : "unknown";

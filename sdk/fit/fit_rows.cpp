@@ -20,8 +20,8 @@ constexpr float kRimCosine =
     0.35f;  // of a normal to the line of sight: the vertex is on the model's own outline
 constexpr int kOutwardCells = 8;      // about 10 cm
 constexpr float kSameLimb_m = 0.12f;  // in depth
-// Beyond the person's last cell, without a reading before the background begins: wider than sensors lose of an
-// outline, not so wide that nothing is behind.
+// Beyond the person's last cell, without a reading before the background begins: wider than sensors lose of
+// an outline, not so wide that nothing is behind.
 constexpr float kHidden_m = 0.025f, kHiddenReach_m = 0.20f;
 // Of the weight of other joints: under clothes the network takes the trousers' crotch for the body's.
 constexpr float kHipShare = 0.1f;
@@ -69,8 +69,8 @@ float uncovered_cells(const FitView& view, const FitRaster& raster, const Vec2& 
     return last;
 }
 
-/// Whether the outline is not seen: from the person's cell on along `step` there is no reading for a while, and
-/// then there is the background.
+/// Whether the outline is not seen: from the person's cell on along `step` there is no reading for a while,
+/// and then there is the background.
 bool hides_outline(const FitView& view, const Vec2& from, const Vec2& step, float cell_m) {
     for (int i = 1; float(i) * cell_m < kHiddenReach_m; ++i) {
         const int x = int(std::lround(from.x + float(i) * step.x)),

@@ -63,11 +63,11 @@ public:
     /// The shape of all frames together.
     const FitShape& shape() const { return fit_.output().pose.shape; }
     const BodyFitOutput& fit() const { return fit_.output(); }
-    /// Where the readings of a head end below hair that gives none, metres above the floor: stature is more. 0:
-    /// the crown is seen.
+    /// Where the readings of a head end below hair that gives none, metres above the floor: stature is more.
+    /// 0: the crown is seen.
     float stature_bound_m() const { return crown_is_hidden() ? float(sums_.bound_m / sums_.bounds) : 0.0f; }
-    /// How much the crown may lie higher or lower than features() tell, where the last reading of the head and the
-    /// first of the background lie a little farther apart than elsewhere; standard deviation.
+    /// How much the crown may lie higher or lower than features() tell, where the last reading of the head
+    /// and the first of the background lie a little farther apart than elsewhere; standard deviation.
     float crown_sigma_m() const { return unseen_crown_m() / std::sqrt(12.0f); }
     /// What the sensor loses of outlines; features() has it added to all that is read off outlines.
     float outline_loss_px() const { return outline_loss_.pixels(); }
@@ -84,8 +84,8 @@ private:
     };
     Top top_of_head(const DepthImage& image, uint8_t user) const;
     bool crown_is_hidden() const { return sums_.bounds > sums_.crowns; }
-    /// Of the crown, between the last reading and the background, beyond what the sensor loses anyway; 0 where it
-    /// is within a pixel.
+    /// Of the crown, between the last reading and the background, beyond what the sensor loses anyway; 0
+    /// where it is within a pixel.
     float unseen_crown_m() const;
 
     std::shared_ptr<const FitModel> model_;

@@ -53,9 +53,8 @@ TEST_F(PopulationTest, AShortListBecomesAFullOne) {
     vfit_avatar_desc desc = vfit_avatar_desc_init();
     desc.sex = VFIT_SEX_MALE;
     vfit_avatar avatar{};
-    EXPECT_EQ(
-        vfit_avatar_create(context, &desc, all.data(), sizeof all[0], uint32_t(all.size()), &avatar),
-        VFIT_OK);
+    EXPECT_EQ(vfit_avatar_create(context, &desc, all.data(), sizeof all[0], uint32_t(all.size()), &avatar),
+              VFIT_OK);
     vfit_size_chart chart{};
     ASSERT_EQ(vfit_size_chart_open(context, "en13402_men", &chart), VFIT_OK);
     uint32_t sizes = 0;

@@ -68,6 +68,24 @@ protected:
 
 }  // namespace
 
+TEST_F(ScanFitTest, HairWithoutAReadingIsABoundOfStature) {
+    const vfit_scan scan = make(15, 0, VFIT_SCAN_BARE | VFIT_SCAN_TIGHT);
+    vfit_scan_state state = vfit_scan_state_init();
+    std::string truth;
+    EXPECT_EQ(play(scan, "motion=scan&frames=15&wall=0.7", &state, &truth), VFIT_OK);
+    const vfit_measurement seen = measures(scan).at("stature_m");
+    EXPECT_EQ(seen.observed, 1u);
+    EXPECT_LT(seen.sigma, 0.006f);
+    EXPECT_NEAR(seen.value, number(truth, "stature_m"), 3.0f * seen.sigma);
+    EXPECT_EQ(vfit_scan_reset(scan), VFIT_OK);
+    EXPECT_EQ(play(scan, "motion=scan&frames=15&wall=0.7&black_hair=0.07", &state), VFIT_OK);
+    const vfit_measurement hidden = measures(scan).at("stature_m");
+    EXPECT_EQ(hidden.observed, 0u);
+    EXPECT_GT(hidden.sigma, 0.008f);
+    EXPECT_NEAR(hidden.value, number(truth, "stature_m"), 2.5f * hidden.sigma) << "7 cm are not seen";
+    vfit_scan_destroy(scan);
+}
+
 TEST_F(ScanFitTest, MeasuresFromTheFrontAndTheSide) {
     // Tight clothes: of thick ones the girth under them is as unsure from two sides as from one.
     const vfit_scan scan = make(15, 15, VFIT_SCAN_BARE | VFIT_SCAN_TIGHT);

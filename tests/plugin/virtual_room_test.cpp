@@ -165,6 +165,28 @@ TEST(VirtualRoom, ThreePeopleHaveLabelsAndJointsOfTheirOwn) {
     }
 }
 
+TEST(VirtualRoom, BlackHairGivesNoReading) {
+    TestHost host;
+    const auto bare = host.run("virtual:frames=1&sensor=ideal&noise=0").at(0),
+               hairy = host.run("virtual:frames=1&sensor=ideal&noise=0&black_hair=0.1").at(0);
+    uint32_t top = 0, lost = 0;
+    while (std::count(bare.user.begin() + top * bare.width, bare.user.begin() + (top + 1) * bare.width, 1) ==
+           0)
+        ++top;
+    for (uint32_t y = 0; y < bare.height; ++y)
+        for (uint32_t x = 0; x < bare.width; ++x) {
+            const size_t i = size_t{y} * bare.width + x;
+            if (bare.depth[i] == hairy.depth[i]) continue;
+            EXPECT_EQ(hairy.depth[i], 0) << "nothing is behind it";
+            EXPECT_EQ(bare.user[i], 1);
+            EXPECT_EQ(hairy.user[i], 0);
+            // 10 cm and no more, at the distance of the head.
+            EXPECT_LT(float(y - top), 0.115f * bare.intrinsics.fy / bare.unproject(x, y).z);
+            ++lost;
+        }
+    EXPECT_GT(lost, 100u);
+}
+
 TEST(VirtualRoom, TheFloorCanBeKeptSecret) {
     TestHost host;
     const auto frames = host.run("virtual:frames=1&floor=unknown&camera_height=1.4");

@@ -39,8 +39,14 @@ TEST(Agreement, ManyScansOfOnePersonAreOnePerson) {
 }
 
 TEST(Agreement, StudentsTIsThatOfTheTables) {
-    for (const auto& [degrees, t] : {std::pair(1u, 12.706), {2u, 4.303}, {3u, 3.182}, {4u, 2.776}, {9u, 2.262},
-                                     {29u, 2.045}, {39u, 2.023}, {1000u, 1.962}})
+    for (const auto& [degrees, t] : {std::pair(1u, 12.706),
+                                     {2u, 4.303},
+                                     {3u, 3.182},
+                                     {4u, 2.776},
+                                     {9u, 2.262},
+                                     {29u, 2.045},
+                                     {39u, 2.023},
+                                     {1000u, 1.962}})
         EXPECT_NEAR(student_t_975(degrees), t, 0.004) << degrees;
 }
 
@@ -52,7 +58,9 @@ TEST(Agreement, Iso20685AsksForFortyPeopleAndTheWholeInterval) {
     EXPECT_EQ(iso_20685_limit_m("body_mass_kg"), 0.0);
     std::vector<double> errors;
     for (int i = 0; i < 40; ++i) errors.push_back(i % 2 ? 5.0 : 9.0);  // 7 +- 0.65
-    const auto verdict = [&](double limit_m) { return iso_20685_verdict(agreement(people(errors)), limit_m); };
+    const auto verdict = [&](double limit_m) {
+        return iso_20685_verdict(agreement(people(errors)), limit_m);
+    };
     EXPECT_EQ(verdict(0.009), Verdict::kPasses);
     EXPECT_EQ(verdict(0.005), Verdict::kFails);
     EXPECT_EQ(verdict(0.0072), Verdict::kOpen);

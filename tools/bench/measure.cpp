@@ -205,7 +205,8 @@ void scan(const PersonOfPopulation& person, const ScanScene& scene, uint32_t see
     const auto typed = estimated(one.context(), person.sex, typed_by(person, seed));
     add(typed, person.measures, set.typed);
     // Where the crown is hidden the statures may be those of two people.
-    if (!set.hair) add(merged_measurements(set.tight() ? told : both, typed), person.measures, set.both_and_typed);
+    if (!set.hair)
+        add(merged_measurements(set.tight() ? told : both, typed), person.measures, set.both_and_typed);
     judge_size(one.context(), person, both, set.letters);
     judge_size(one.context(), person, told, set.letters_told);
 }
@@ -285,8 +286,7 @@ void run(const Options& o) {
         if (!asked_for(set.name)) continue;
         if (!population || made != set.space)
             population = std::make_unique<VirtualPeople>(body, made = set.space, o.seed);
-        for (uint32_t p = o.first; p < o.first + o.count; ++p)
-        {
+        for (uint32_t p = o.first; p < o.first + o.count; ++p) {
             const uint32_t seed = o.seed * 104729u + p;
             const ScanScene scene = ScanScene::draw(set.dress, seed);
             scan(population->draw(p), set.hair ? scene.with_black_hair() : scene, seed, o.told_sex, set);

@@ -132,8 +132,8 @@ void judge_varied(const MeasureSet& set, Targets& targets) {
     }
     double camera = 0.0, typed = 0.0;
     for (const char* key : kGirths) camera += both.at(key).mean(), typed += set.typed.at(key).mean();
-    targets.judge(set.name + ": girths, error" + views + " over that of typed height and weight", camera / typed,
-                  Aim::at_most, set.tight() ? 0.4 : 0.7, 2);
+    targets.judge(set.name + ": girths, error" + views + " over that of typed height and weight",
+                  camera / typed, Aim::at_most, set.tight() ? 0.4 : 0.7, 2);
     most(std::string("stature_m") + views, both.at("stature_m").mean(), set.tight() ? 4 : 6);
     double worst_bias = -1.0, min_covered = 1.0;  // of the groups that are large enough
     std::string biased, uncovered;
@@ -205,8 +205,8 @@ void print(const MeasureSet& set) {
 void judge(const MeasureSet& set, Targets& targets) {
     if (set.hair) {
         if (const auto at = set.both_told.find("stature_m"); at != set.both_told.end()) {
-            targets.judge(set.name + ": stature_m, front and side", 1000 * at->second.mean(), Aim::at_most, 4, 1,
-                          " mm");
+            targets.judge(set.name + ": stature_m, front and side", 1000 * at->second.mean(), Aim::at_most, 4,
+                          1, " mm");
             targets.judge(set.name + ": stature_m, 90 % intervals cover", at->second.covered(), Aim::at_least,
                           0.9, 3);
         }

@@ -68,8 +68,8 @@ struct MeasureSet {
     // Of a scan that is told nothing of clothes, and of one that is told that they are tight; both: of the
     // front and the side, or the turn.
     MeasureTallies front{}, both{}, front_told{}, both_told{}, paper{};
-    // By a population alone, from a typed height and weight; and of both of the scan that knows of the clothes,
-    // and those.
+    // By a population alone, from a typed height and weight; and of both of the scan that knows of the
+    // clothes, and those.
     MeasureTallies typed{}, both_and_typed{};
     std::map<std::string, MeasureTallies>
         groups{};  // of real sets: front and side, told tight where clothes are

@@ -68,7 +68,8 @@ void print_scatter(const std::vector<PersonOfPopulation>& people, const Anthropo
 
 void run(const Options& o) {
     const Timer start;
-    VirtualPeople population(BodyModel::load(library_file("vfit_data/body.bin")), body_space(o.space), o.seed);
+    VirtualPeople population(BodyModel::load(library_file("vfit_data/body.bin")), body_space(o.space),
+                             o.seed);
     const double start_ms = start.ms();
     Json rows = Json::array();
     std::vector<PersonOfPopulation> people;

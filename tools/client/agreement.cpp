@@ -7,7 +7,8 @@
 namespace vfit::tools {
 
 double student_t_975(uint32_t degrees) {
-    // Exact for one and two; then the expansion of Cornish and Fisher, right to 0.004 at three and better from four on.
+    // Exact for one and two; then the expansion of Cornish and Fisher, right to 0.004 at three and better
+    // from four on.
     if (degrees == 1) return 12.706;
     if (degrees == 2) return 4.303;
     const double z = 1.959964, v = double(degrees);
@@ -40,9 +41,9 @@ Agreement agreement(const std::vector<Compared>& list) {
     for (const auto& [name, person] : people) out.bias += person.mean() / out.people;
     double spread = 0.0;
     for (const auto& [name, person] : people) spread += std::pow(person.mean() - out.bias, 2.0);
-    out.confidence = out.people < 2 ? std::numeric_limits<double>::infinity()
-                                    : student_t_975(out.people - 1) *
-                                          std::sqrt(spread / (out.people - 1) / out.people);
+    out.confidence = out.people < 2
+                         ? std::numeric_limits<double>::infinity()
+                         : student_t_975(out.people - 1) * std::sqrt(spread / (out.people - 1) / out.people);
     const double mean = sum / out.scans;
     if (out.scans > 1) out.sd = std::sqrt(std::max(0.0, squares - out.scans * mean * mean) / (out.scans - 1));
     out.low = out.bias - 1.96 * out.sd;
@@ -66,7 +67,7 @@ double iso_20685_limit_m(const std::string& key) {
 Verdict iso_20685_verdict(const Agreement& a, double limit_m) {
     if (std::abs(a.bias) - a.confidence > limit_m) return Verdict::kFails;
     return a.people >= kIsoPeople && std::abs(a.bias) + a.confidence < limit_m ? Verdict::kPasses
-                                                                                : Verdict::kOpen;
+                                                                               : Verdict::kOpen;
 }
 
 }  // namespace vfit::tools

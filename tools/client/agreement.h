@@ -17,9 +17,10 @@ struct Compared {
 
 struct Agreement {
     uint32_t people = 0, scans = 0;
-    double bias = 0.0;        // mean over people of their scans' mean errors
-    double confidence = 0.0;  // half of the 95 % interval of bias, by Student's t over people; infinite: of one
-    double sd = 0.0;          // of all errors
+    double bias = 0.0;  // mean over people of their scans' mean errors
+    double confidence =
+        0.0;          // half of the 95 % interval of bias, by Student's t over people; infinite: of one
+    double sd = 0.0;  // of all errors
     double mean_absolute = 0.0;
     double low = 0.0, high = 0.0;  // limits of agreement: bias -+ 1.96 sd (Bland and Altman 1986)
     double covered = 0.0;          // fraction of scans whose 90 % interval holds the tape
@@ -28,12 +29,13 @@ struct Agreement {
 /// Of at least one.
 Agreement agreement(const std::vector<Compared>& list);
 
-/// What ISO 20685-1 allows the mean error of that measure to be, in metres; 0: the standard has none (a mass).
+/// What ISO 20685-1 allows the mean error of that measure to be, in metres; 0: the standard has none (a
+/// mass).
 double iso_20685_limit_m(const std::string& key);
 
 enum class Verdict { kPasses, kFails, kOpen };
-/// By the standard the whole 95 % interval of the bias must lie within the limit, of 40 people or more. Fails:
-/// the interval lies outside. Open: too few people, or too much scatter, to tell.
+/// By the standard the whole 95 % interval of the bias must lie within the limit, of 40 people or more.
+/// Fails: the interval lies outside. Open: too few people, or too much scatter, to tell.
 Verdict iso_20685_verdict(const Agreement& agreement, double limit_m);
 constexpr uint32_t kIsoPeople = 40;
 

@@ -49,14 +49,16 @@ std::string key_of(const std::string& name) {
             return key;
     // A measure of the host's own is told by its whole key.
     if (name.rfind("x_", 0) == 0) return name;
-    throw WrongUsage("\"" + name + "\" is no measure; they are: height, weight, chest, waist, hip and the keys of "
+    throw WrongUsage("\"" + name +
+                     "\" is no measure; they are: height, weight, chest, waist, hip and the keys of "
                      "docs/measuring.md");
 }
 
 /// "172cm", "5ft8in", "11st4lb", "1.72" (in the key's unit).
 double amount_of(const std::string& text, bool mass) {
     double sum = 0.0;
-    const std::span<const Unit> units = mass ? std::span<const Unit>(kMasses) : std::span<const Unit>(kLengths);
+    const std::span<const Unit> units =
+        mass ? std::span<const Unit>(kMasses) : std::span<const Unit>(kLengths);
     size_t at = 0;
     while (at < text.size()) {
         const size_t end = text.find_first_not_of("0123456789.", at);
@@ -64,14 +66,16 @@ double amount_of(const std::string& text, bool mass) {
         std::istringstream in(digits);
         in.imbue(std::locale::classic());
         double number = 0.0;
-        if (!(in >> number) || !in.eof()) throw WrongUsage("\"" + text + "\" is not an amount such as 172cm or 5ft8in");
+        if (!(in >> number) || !in.eof())
+            throw WrongUsage("\"" + text + "\" is not an amount such as 172cm or 5ft8in");
         if (end == std::string::npos) {
             if (at != 0) throw WrongUsage("\"" + text + "\" ends without a unit");
             return number;
         }
         at = std::min(text.find_first_of("0123456789.", end), text.size());
         const std::string name = text.substr(end, at - end);
-        const auto unit = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return name == u.name; });
+        const auto unit =
+            std::find_if(units.begin(), units.end(), [&](const Unit& u) { return name == u.name; });
         if (unit == units.end()) {
             std::string known;
             for (const Unit& u : units) known += std::string(known.empty() ? "" : ", ") + u.name;
@@ -128,8 +132,9 @@ Json estimate(const Options& o) {
              return vfit_population_check(population.get(), &person, known.data(), sizeof known[0],
                                           uint32_t(known.size()), items, stride, n);
          })) {
-        Json doubt = {{"key", d.key},          {"kind", kKinds[d.kind]},  {"value", d.value},
-                      {"suggested", d.suggested}, {"expected", d.expected}, {"sigma", d.sigma}};
+        Json doubt = {{"key", d.key},           {"kind", kKinds[d.kind]},
+                      {"value", d.value},       {"suggested", d.suggested},
+                      {"expected", d.expected}, {"sigma", d.sigma}};
         if (d.other_key[0]) doubt["other_key"] = d.other_key;
         out["doubts"].push_back(doubt);
     }
@@ -164,12 +169,14 @@ void print(const Json& result) {
 void add_estimate(Command& app) {
     Command command = app.add_subcommand("estimate", "All measures from those that a person knows");
     auto o = std::make_shared<Options>();
-    command.add_option("measures", o->measures,
-                       "height=172cm weight=70kg waist=32in+-4cm: units m, cm, mm, in, ft, kg, lb, st; none: of "
-                       "the key; after +- a standard deviation");
+    command.add_option(
+        "measures", o->measures,
+        "height=172cm weight=70kg waist=32in+-4cm: units m, cm, mm, in, ft, kg, lb, st; none: of "
+        "the key; after +- a standard deviation");
     command.add_option("--sex", o->sex, "f or m, where known").one_of({"f", "m", "unknown"});
     command.add_option("--age", o->age, "Years, 18 to 100, where known");
-    command.add_option("--known", o->known, "Known measures from a file: a profile or a report of vfit measure");
+    command.add_option("--known", o->known,
+                       "Known measures from a file: a profile or a report of vfit measure");
     command.add_option("--population", o->population, "Name of a population, or file (default: adults)");
     command.add_option("--profile", o->profile, "File to write the measures to, for vfit size");
     command.add_flag("--json", o->json, "Print JSON");

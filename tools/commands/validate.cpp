@@ -153,7 +153,8 @@ std::map<std::string, double> tape_of(vfit_frame frame) {
     std::string text(1u << 16, 0);
     uint32_t length = 0;
     std::map<std::string, double> tape;
-    if (vfit_frame_meta(frame, "measures", text.data(), uint32_t(text.size()), &length) != VFIT_OK) return tape;
+    if (vfit_frame_meta(frame, "measures", text.data(), uint32_t(text.size()), &length) != VFIT_OK)
+        return tape;
     const Json measures = Json::parse(text.c_str());
     for (const auto& [key, value] : measures.items())
         if (is_measure(key)) tape[key] = value.get<double>();
@@ -162,20 +163,20 @@ std::map<std::string, double> tape_of(vfit_frame frame) {
 
 std::vector<vfit_measurement> scanned(vfit_context context, const Options& o, Case& one) {
     constexpr std::string_view kEnd = ".json";
-    if (one.scan.size() > kEnd.size() && one.scan.compare(one.scan.size() - kEnd.size(), kEnd.size(), kEnd) == 0)
+    if (one.scan.size() > kEnd.size() &&
+        one.scan.compare(one.scan.size() - kEnd.size(), kEnd.size(), kEnd) == 0)
         return read_measures(one.scan).measurements;
     const bool turn = one.turn.value_or(o.turn);
     Frame last;
-    const ScanRun run = scan_source(
-        context, one.scan,
-        {o.frames, sex_from(one.sex.value_or("unknown")), VFIT_SCAN_FIT, o.track,
-         o.side_frames != kNotSaid ? o.side_frames
-         : turn                    ? 0u
-                                   : kSideFrames,
-         (one.bare.value_or(o.bare) ? uint32_t{VFIT_SCAN_BARE} : 0u) |
-             (one.tight.value_or(o.tight) ? uint32_t{VFIT_SCAN_TIGHT} : 0u) |
-             (turn ? uint32_t{VFIT_SCAN_TURN} : 0u)},
-        &last);
+    const ScanRun run = scan_source(context, one.scan,
+                                    {o.frames, sex_from(one.sex.value_or("unknown")), VFIT_SCAN_FIT, o.track,
+                                     o.side_frames != kNotSaid ? o.side_frames
+                                     : turn                    ? 0u
+                                                               : kSideFrames,
+                                     (one.bare.value_or(o.bare) ? uint32_t{VFIT_SCAN_BARE} : 0u) |
+                                         (one.tight.value_or(o.tight) ? uint32_t{VFIT_SCAN_TIGHT} : 0u) |
+                                         (turn ? uint32_t{VFIT_SCAN_TURN} : 0u)},
+                                    &last);
     if (one.tape.empty()) one.tape = tape_of(last.get());
     return measurements_of(run.scan.get());
 }
@@ -197,8 +198,7 @@ Json validate(const Options& o, ByMeasure& compared) {
                 if (one.tape.empty()) throw Failure("no tape measure of this person is known");
                 for (const vfit_measurement& m : list)
                     if (const auto at = one.tape.find(m.key); at != one.tape.end())
-                        compared[m.key].push_back(
-                            {one.person, double(m.value), double(m.sigma), at->second});
+                        compared[m.key].push_back({one.person, double(m.value), double(m.sigma), at->second});
             } catch (const Failure& failure) {
                 failed.push_back({{"scan", one.scan}, {"reason", failure.what()}});
             }
@@ -255,11 +255,12 @@ void print(const Json& result) {
                   << amount(m["limits_of_agreement"][1]) << std::setprecision(0) << std::setw(6)
                   << 100.0 * m["within_90_percent"].get<double>() << " %";
         if (m.contains("iso_20685"))
-            std::cout << "  " << 1000.0 * m["iso_20685_m"].get<double>() << " mm: "
-                      << m["iso_20685"].get<std::string>();
+            std::cout << "  " << 1000.0 * m["iso_20685_m"].get<double>()
+                      << " mm: " << m["iso_20685"].get<std::string>();
         std::cout << "\n";
     }
-    std::cout << "open: fewer than " << kIsoPeople << " people, or the interval of the bias reaches over the bound\n";
+    std::cout << "open: fewer than " << kIsoPeople
+              << " people, or the interval of the bias reaches over the bound\n";
 }
 
 void draw(const Options& o, const ByMeasure& compared) {

@@ -33,7 +33,8 @@ public:
     Panel(Canvas& canvas, int left, int top, const AgreementPanel& panel)
         : canvas_(canvas), left_(left), top_(top), panel_(panel), agreement_(agreement(panel.list)) {
         x0_ = 1e9, x1_ = -1e9;
-        double reach = 1.2 * std::max({std::abs(agreement_.low), std::abs(agreement_.high), panel.limit_m, 1e-3});
+        double reach =
+            1.2 * std::max({std::abs(agreement_.low), std::abs(agreement_.high), panel.limit_m, 1e-3});
         for (const Compared& c : panel.list) {
             const double middle = 0.5 * (c.scanned + c.taped);
             x0_ = std::min(x0_, middle), x1_ = std::max(x1_, middle);
@@ -78,7 +79,8 @@ private:
         return left_ + kLeft + int(std::lround((x - x0_) / (x1_ - x0_) * (kWidth - kLeft - kRight)));
     }
     int py(double y) const {
-        return top_ + kHeight - kBottom - int(std::lround((y - y0_) / (y1_ - y0_) * (kHeight - kTop - kBottom)));
+        return top_ + kHeight - kBottom -
+               int(std::lround((y - y0_) / (y1_ - y0_) * (kHeight - kTop - kBottom)));
     }
     void level(double y, int thickness, const Color& color) const {
         canvas_.line(float(px(x0_)), float(py(y)), float(px(x1_)), float(py(y)), thickness, color);

@@ -59,15 +59,14 @@ py::list check_known(const Population& population, const py::object& known, cons
 }  // namespace
 
 void bind_population(py::module_& m) {
-    closable(
-        py::class_<Population, std::shared_ptr<Population>>(
-            m, "Population", "How the measures of people go together (docs/measuring.md).")
-            .def_static("open", &open, "context"_a, "name"_a, "One that comes with vfit: \"adults\".")
-            .def_static("load", &load, "context"_a, "json"_a, "One of your own, as JSON text.")
-            .def("estimate", &estimate, "known"_a, "sex"_a = py::none(), "age"_a = py::none(),
-                 "Every measure of a person of whom these are known.")
-            .def("check", &check_known, "known"_a, "sex"_a = py::none(), "age"_a = py::none(),
-                 "Measures that do not go with the others, the worst first."));
+    closable(py::class_<Population, std::shared_ptr<Population>>(
+                 m, "Population", "How the measures of people go together (docs/measuring.md).")
+                 .def_static("open", &open, "context"_a, "name"_a, "One that comes with vfit: \"adults\".")
+                 .def_static("load", &load, "context"_a, "json"_a, "One of your own, as JSON text.")
+                 .def("estimate", &estimate, "known"_a, "sex"_a = py::none(), "age"_a = py::none(),
+                      "Every measure of a person of whom these are known.")
+                 .def("check", &check_known, "known"_a, "sex"_a = py::none(), "age"_a = py::none(),
+                      "Measures that do not go with the others, the worst first."));
 }
 
 }  // namespace vfit_python

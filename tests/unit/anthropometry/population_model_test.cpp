@@ -21,8 +21,11 @@ std::string small_text(double r = 0.5) {
                     {"mean", {45.0, std::log(stature), std::log(waist)}},
                     {"covariance", {{225.0}, {0.0, 0.0016}, {0.3, r * 0.004, 0.01}}}};
     };
-    return Json{{"format", "vfit-population"}, {"version", 1},        {"name", "small"},
-                {"women", people(1.63, 0.80)}, {"men", people(1.76, 0.92)}}
+    return Json{{"format", "vfit-population"},
+                {"version", 1},
+                {"name", "small"},
+                {"women", people(1.63, 0.80)},
+                {"men", people(1.76, 0.92)}}
         .dump();
 }
 
@@ -146,9 +149,9 @@ TEST(Adults, EachAnswerNarrowsTheIntervals) {
     std::vector<Measurement> known = {{"stature_m", 1.70f, 0.0f, true}};
     float before = sigma(adults().estimate({VFIT_SEX_FEMALE, {}}, known), "hip_girth_m");
     const float first = before;
-    for (const Measurement& more :
-         {Measurement{"body_mass_kg", 70.0f, 0.0f, true}, {"waist_girth_m", 0.80f, 0.0f, true},
-          {"chest_girth_m", 0.97f, 0.0f, true}}) {
+    for (const Measurement& more : {Measurement{"body_mass_kg", 70.0f, 0.0f, true},
+                                    {"waist_girth_m", 0.80f, 0.0f, true},
+                                    {"chest_girth_m", 0.97f, 0.0f, true}}) {
         known.push_back(more);
         const float now = sigma(adults().estimate({VFIT_SEX_FEMALE, {}}, known), "hip_girth_m");
         EXPECT_LE(now, before) << more.key;
@@ -180,8 +183,10 @@ TEST(MeasureDoubts, NamesTheSlip) {
         float meant;
     };
     // 35 inches for 35 cm; 181 pounds for 181 kg; 108 for 180 cm; 202 for 102 cm.
-    for (const Case& c : {Case{3, 0.35f, VFIT_DOUBT_INCHES, 0.889f}, {1, 181.0f, VFIT_DOUBT_POUNDS, 82.1f},
-                          {0, 1.08f, VFIT_DOUBT_DIGIT, 1.80f}, {4, 2.02f, VFIT_DOUBT_DIGIT, 1.02f}}) {
+    for (const Case& c : {Case{3, 0.35f, VFIT_DOUBT_INCHES, 0.889f},
+                          {1, 181.0f, VFIT_DOUBT_POUNDS, 82.1f},
+                          {0, 1.08f, VFIT_DOUBT_DIGIT, 1.80f},
+                          {4, 2.02f, VFIT_DOUBT_DIGIT, 1.02f}}) {
         auto known = usual_man();
         known[c.item].value = c.typed;
         const auto doubts = find_doubts(adults(), {VFIT_SEX_MALE, {}}, known);
@@ -215,7 +220,8 @@ TEST(MeasureDoubts, FindsTwoSlipsOfOneList) {
 
 TEST(MeasureDoubts, TellsWhatNoSlipExplains) {
     auto known = usual_man();
-    known[3].value = 1.27f, known[3].sigma = 0.01f;  // none of 27, 17, ... 127 cm or inches goes with the rest
+    known[3].value = 1.27f,
+    known[3].sigma = 0.01f;  // none of 27, 17, ... 127 cm or inches goes with the rest
     const auto doubts = find_doubts(adults(), {VFIT_SEX_MALE, {}}, known);
     ASSERT_FALSE(doubts.empty());
     EXPECT_EQ(doubts[0].key, "waist_girth_m");
