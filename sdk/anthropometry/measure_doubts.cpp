@@ -12,7 +12,7 @@ namespace vfit {
 namespace {
 
 constexpr float kInch_m = 0.0254f, kPound_kg = 0.45359237f;
-// How often a slip of that kind is made with one measure; there are some thirty ways to mistype a digit.
+// How often a slip of that kind is made with one measure; there are about thirty ways to mistype a digit.
 const double kLogUnits = std::log(1.0 / 200.0), kLogDigit = std::log(1.0 / 500.0 / 30.0),
              kLogSwapped = std::log(1.0 / 500.0);
 // Of a value that nothing explains, and of what a slip leaves: in standard deviations.

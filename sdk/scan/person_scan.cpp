@@ -39,7 +39,7 @@ bool arms_out(const Body& body) {
     return true;
 }
 
-/// The measure of somebody of whom it is known that it is larger: the normal distribution's upper part.
+/// A measure that is known to be larger than a bound: the upper part of its normal distribution.
 Measurement above(Measurement m, float bound) {
     const double from = double(bound - m.value) / double(m.sigma);
     if (from < -4.0) return m;

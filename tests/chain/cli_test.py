@@ -434,8 +434,9 @@ class Contract(unittest.TestCase):
             self.assertEqual(result["doubts"], [])
             more = document(self, *known, "waist=29in+-1cm", "--json")["measurements"]
             self.assertLess(more["hip_girth_m"]["sigma"], told["hip_girth_m"]["sigma"])
-            # What comes out is what vfit size takes.
-            sizes = document(self, "size", profile, "--chart", "en13402_women", "--garment", "dress", "--json")
+            # vfit size takes the profile.
+            chart = ("--chart", "en13402_women", "--garment", "dress")
+            sizes = document(self, "size", profile, *chart, "--json")
             self.assertAlmostEqual(sum(s["probability"] for s in sizes["sizes"]), 1.0, places=3)
             doubts = document(self, *known, "waist=29cm", "hip=38in", "--json")["doubts"]
             self.assertEqual([(d["key"], d["kind"]) for d in doubts], [("waist_girth_m", "inches")])

@@ -2,8 +2,8 @@
 
     build/venv/bin/python tools/judge_population TABLE...
 
-A table is text with commas or tabs: one of those below, as it is published, or one of your own whose columns are
-"sex" (f, m), "age_years" and keys of measures. docs/measuring.md has what is printed. Needs the Python package vfit.
+A table is text with commas or tabs: one of those below, as it is published, or one of your own whose columns
+are "sex" (f, m), "age_years" and keys of measures. Needs the Python package vfit.
 """
 
 import argparse
@@ -67,7 +67,9 @@ def read_table(path, sex):
     if not lines:
         raise SystemExit(f"judge_population: {path}: is empty")
     delimiter = "\t" if "\t" in lines[0] else ","
-    rows = [{k.strip().lower(): v for k, v in r.items() if k} for r in csv.DictReader(lines, delimiter=delimiter)]
+    rows = [
+        {k.strip().lower(): v for k, v in r.items() if k} for r in csv.DictReader(lines, delimiter=delimiter)
+    ]
     columns = set(rows[0]) if rows else set()
     known = next((table for mark, table in TABLES.items() if mark in columns), None)
     people = []
@@ -82,12 +84,14 @@ def read_table(path, sex):
             except (KeyError, TypeError, ValueError):
                 continue
         if person["sex"] not in ("f", "m"):
-            raise SystemExit(f'judge_population: {path}: the sex "{person["sex"]}" is neither f nor m (--sex)')
+            raise SystemExit(
+                f'judge_population: {path}: the sex "{person["sex"]}" is neither f nor m (--sex)'
+            )
         low, high = PLAUSIBLE_STATURE_M
         if low < person.get("stature_m", 0.0) < high and person.get("body_mass_kg", 0.0) > 0.0:
             people.append(person)
     if not people:
-        raise SystemExit(f"judge_population: {path}: nobody in it has a stature and a mass in known columns")
+        raise SystemExit(f"judge_population: {path}: no person in it has a stature and a mass")
     return people
 
 

@@ -84,7 +84,7 @@ std::string ScanScene::uri(const PersonOfPopulation& person) const {
         << "&distance=" << double(distance_m) + far << "&camera_height=" << camera_height_m
         << "&tilt=" << tilt_deg << "&floor=" << (floor_given ? "given" : "unknown") << "&top=" << top_m
         << "&sleeves=" << sleeves_m << "&trousers=" << trousers_m;
-    // Before a wall that both sensors see: without one nobody can tell where the head ends.
+    // Before a wall that both sensors see: without one it cannot be told where the head ends.
     if (black_hair_m > 0.0f) out << "&black_hair=" << black_hair_m << "&wall=" << kWall_m;
     return out.str();
 }

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Fits assets/populations/adults.json: how the measures of adults go together, by sex (README.md).
 
-    python3 training/population/fit.py --soldiers ANSUR_FOLDER --civilians NHANES.txt --bodies people.json
-                                       --out assets/populations/adults.json
+python3 training/population/fit.py --soldiers ANSUR --civilians NHANES.txt --bodies people.json --out FILE
 """
 
 import argparse
@@ -15,9 +14,9 @@ import re
 
 import numpy
 
-# Key: column of ANSUR II in millimetres, and what of it is the body's, for women and men. The survey's upper arm
-# is flexed; its breadths and depths are by caliper, which presses flesh, and its chest breadth leaves out the
-# muscles behind the armpits (tools/population/population.cpp).
+# Key: column of ANSUR II in millimetres, and what of it is the body's, for women and men. The survey's upper
+# arm is flexed; its breadths and depths are by caliper, which presses flesh, and its chest breadth leaves out
+# the muscles behind the armpits (tools/population/population.cpp).
 SOLDIERS = {
     "stature_m": ("stature", 1.0, 1.0),
     "body_mass_kg": ("weightkg", 100.0, 100.0),  # tenths of a kilogram
@@ -39,7 +38,7 @@ SOLDIERS = {
     "hip_breadth_m": ("hipbreadth", 1.04, 1.04),
     "hip_depth_m": ("buttockdepth", 1.04, 1.04),
 }
-# What both surveys have. The civilians' waist is at the top of the iliac crest, within a centimetre of the navel.
+# What both surveys have. The civilians' waist is at the top of the iliac crest, close to the navel.
 BASE = ["age_years", "stature_m", "body_mass_kg", "waist_navel_girth_m", "hip_girth_m"]
 CIVILIANS = {
     "stature_m": ("HeightCm", 0.01),
@@ -47,8 +46,8 @@ CIVILIANS = {
     "waist_navel_girth_m": ("WaistCm", 0.01),
     "hip_girth_m": ("HipCm", 0.01),
 }
-# What no survey has is taken from generated bodies, by these of their measures. Their waist at the navel, at the
-# level of the person's own, is "navel_girth_m".
+# What no survey has is taken from generated bodies, by these of their measures. Their waist at the navel, at
+# the level of the person's own, is "navel_girth_m".
 OF_BODIES = [
     "waist_girth_m",
     "waist_minimum_girth_m",
@@ -134,7 +133,7 @@ def bodies(path, sex):
 def fit(sex, soldier_rows, civilian_rows, civilian_weights, people):
     base = [0] + [1 + list(SOLDIERS).index(key) for key in BASE[1:]]
     rest = [i for i in range(soldier_rows.shape[1]) if i not in base]
-    # Half of the people are of each survey: where the surveys differ, in people or in where they lay the tape,
+    # Half of the people are of each survey: where the surveys differ, in people or in where the tape lies,
     # the difference is part of the spread.
     means, covariances = zip(moments(soldier_rows[:, base]), moments(civilian_rows, civilian_weights))
     mean = 0.5 * (means[0] + means[1])
@@ -177,8 +176,12 @@ def print_errors(name, keys, model, rows, columns, known):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--soldiers", required=True, help="folder of female.csv.gz and male.csv.gz of ANSUR II")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--soldiers", required=True, help="folder of female.csv.gz and male.csv.gz of ANSUR II"
+    )
     parser.add_argument("--civilians", required=True, help="table of NHANES 2021 to 2023")
     parser.add_argument("--bodies", required=True, help="of vfit-bench population --space varied --json")
     parser.add_argument("--out", required=True)
@@ -187,15 +190,17 @@ def main():
         "format": "vfit-population",
         "version": 1,
         "name": "adults",
-        "source": "ANSUR II (2012) and NHANES (August 2021 to August 2023), both in the public domain; measures that "
-        "neither has by generated bodies (training/population/fit.py)",
+        "source": "ANSUR II (2012) and NHANES (August 2021 to August 2023), both in the public domain; "
+        "measures that neither has by generated bodies (training/population/fit.py)",
     }
     random = numpy.random.default_rng(1)
     for sex in ("women", "men"):
         s, (c, weights) = soldiers(options.soldiers, sex), civilians(options.civilians, sex)
         people = bodies(options.bodies, sex)
-        print(f"{sex}: {len(s)} soldiers, {len(c)} civilians, {len(people)} bodies; held out, mean absolute error "
-              "in mm (mean error), within 90 %:")
+        print(
+            f"{sex}: {len(s)} soldiers, {len(c)} civilians, {len(people)} bodies; held out, mean absolute "
+            "error in mm (mean error), within 90 %:"
+        )
         folds_s, folds_c = random.integers(0, FOLDS, len(s)), random.integers(0, FOLDS, len(c))
         # One fold alone tells enough: what is fitted has a hundredth as many numbers as there are rows.
         keys, mean, covariance = fit(sex, s[folds_s > 0], c[folds_c > 0], weights[folds_c > 0], [])
@@ -208,7 +213,9 @@ def main():
         out[sex] = {
             "keys": keys,
             "mean": [round(float(m), 6) for m in mean],
-            "covariance": [[float(f"{covariance[i, k]:.6g}") for k in range(i + 1)] for i in range(len(keys))],
+            "covariance": [
+                [float(f"{covariance[i, k]:.6g}") for k in range(i + 1)] for i in range(len(keys))
+            ],
         }
     text = json.dumps(out, indent=1)
     # A list of numbers, such as a row of the covariance, is a line.

@@ -370,7 +370,8 @@ namespace Vfit.Tests
                 Assert.AreEqual("waist_girth_m", doubts[0].Key);
                 Assert.AreEqual(DoubtKind.Inches, doubts[0].Kind);
                 Assert.AreEqual(0.762f, doubts[0].Suggested, 0.001f);
-                Assert.AreEqual(Result.ErrorArgument, Support.CodeOf(() => adults.Estimate(all, Sex.Female, 7f)));
+                Assert.AreEqual(
+                    Result.ErrorArgument, Support.CodeOf(() => adults.Estimate(all, Sex.Female, 7f)));
             }
             Assert.AreEqual(Result.ErrorData, Support.CodeOf(() => Population.Load(Context, "{}")));
         }
