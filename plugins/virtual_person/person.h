@@ -50,6 +50,7 @@ public:
     /// The surface with its clothes, packed x, y, z in world space.
     const float* positions() const { return surface_; }
     std::span<const vfit_joint> joints() const { return joints_; }
+    Vec3 joint_place(vfit_joint_id joint) const;
 
 private:
     vfit_view vertices(vfit_stream stream) const;  // packed Vec3
@@ -57,7 +58,6 @@ private:
     void read_proportions();
     void read_measures();
     void read_joints();
-    Vec3 joint_place(vfit_joint_id joint) const;
 
     vfit_avatar avatar_{};
     vfit_frame mesh_{};

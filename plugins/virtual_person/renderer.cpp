@@ -8,6 +8,8 @@ namespace vfit::virtual_person {
 
 namespace {
 
+constexpr float kHeadRadius_m = 0.25f;  // from the head's middle, with hair and whatever the pose
+
 vfit_sex sex_of(const Options& options) {
     const std::string& sex = options.text("sex");
     return sex == "f" ? VFIT_SEX_FEMALE : sex == "m" ? VFIT_SEX_MALE : VFIT_SEX_UNKNOWN;
@@ -90,8 +92,12 @@ void Renderer::advance(uint64_t frame) {
 
 void Renderer::find_hair() {
     const float* skin = person_.positions();
-    float crown = skin[1];
-    for (size_t v = 1; v < person_.vertex_count(); ++v) crown = std::max(crown, skin[3 * v + 1]);
+    // Of the head: a raised hand may be higher.
+    const Vec3 head = person_.joint_place(VFIT_JOINT_HEAD);
+    float crown = head.y;
+    for (size_t v = 0; v < person_.vertex_count(); ++v)
+        if (glm::distance(Vec3(skin[3 * v], skin[3 * v + 1], skin[3 * v + 2]), head) < kHeadRadius_m)
+            crown = std::max(crown, skin[3 * v + 1]);
     swallowed_.clear();
     for (uint32_t y = 0; y < clean_.height; ++y)
         for (uint32_t x = 0; x < clean_.width; ++x) {
@@ -100,13 +106,16 @@ void Renderer::find_hair() {
             const float z = clean_.depth_m[i];
             const Vec3 seen(z * (static_cast<float>(x) - model_.cx) / model_.fx,
                             z * (static_cast<float>(y) - model_.cy) / model_.fy, z);
-            if (camera_.to_world(seen).y > crown - black_hair_m_) swallowed_.push_back(i);
+            const Vec3 place = camera_.to_world(seen);
+            if (place.y > crown - black_hair_m_ && glm::distance(place, head) < kHeadRadius_m)
+                swallowed_.push_back(i);
         }
 }
 
 void Renderer::write_depth(uint16_t* pixels, uint32_t row_stride) {
     noise_.apply(clean(), frame_, pixels, row_stride);
     for (const uint32_t i : swallowed_) {
+        if (hides(i)) continue;
         auto* row = reinterpret_cast<unsigned char*>(pixels) + size_t{i / clean_.width} * row_stride;
         reinterpret_cast<uint16_t*>(row)[i % clean_.width] = 0;
     }
@@ -117,7 +126,8 @@ void Renderer::write_user_map(uint8_t* pixels, uint32_t row_stride) const {
     for (uint32_t y = 0; y < image.height; ++y)
         std::memcpy(pixels + size_t{y} * row_stride, image.user.data() + size_t{y} * image.width,
                     image.width);
-    for (const uint32_t i : swallowed_) pixels[size_t{i / image.width} * row_stride + i % image.width] = 0;
+    for (const uint32_t i : swallowed_)
+        if (!hides(i)) pixels[size_t{i / image.width} * row_stride + i % image.width] = 0;
 }
 
 const std::vector<SeenBody>& Renderer::bodies() {

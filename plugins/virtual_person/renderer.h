@@ -45,6 +45,8 @@ private:
     Renderer(vfit_context context, const Options& options, const RandomBody& body);
     /// Pixels of the person that lie above what the hair leaves to see.
     void find_hair();
+    /// Whether something stands before that pixel of the person.
+    bool hides(uint32_t pixel) const { return clean().depth_m[pixel] < clean_.depth_m[pixel]; }
 
     const SensorModel& model_;
     double frame_time_s_;

@@ -17,6 +17,7 @@ const double kLogUnits = std::log(1.0 / 200.0), kLogDigit = std::log(1.0 / 500.0
              kLogSwapped = std::log(1.0 / 500.0);
 // Of a value that nothing explains, and of what a slip leaves: in standard deviations.
 constexpr double kUnlikely = 4.0;
+constexpr int kMostSlips = 5;  // of a list; with more there is little left to trust
 
 /// Of a list that could be as it is.
 double log_likelihood(const PopulationModel& population, vfit_sex sex, const Person& person,
@@ -49,10 +50,14 @@ Expected expected(const PopulationModel& population, vfit_sex sex, const Person&
     return {belief.mean[at], std::sqrt(belief.variance(at) + error * error)};
 }
 
+/// One slip of the hand, or of the mind: what was meant in the place of what was given.
 struct Slip {
+    struct Change {
+        size_t item;
+        float meant;
+    };
     vfit_doubt_kind kind;
-    size_t item, other;  // other: of a swap
-    float meant;
+    std::vector<Change> changes;
     double log_prior;
 };
 
@@ -73,34 +78,54 @@ std::vector<float> meant_numbers(float value, bool mass) {
     return out;
 }
 
-std::vector<Slip> slips(const std::vector<Measurement>& known) {
+float in_inches(float value_m) { return value_m * kInch_m * 100.0f; }
+
+bool is_girth(std::string_view key) { return key.find("_girth_") != std::string_view::npos; }
+
+/// Of the list as it is known now; items that are doubted already are left alone.
+std::vector<Slip> slips(const std::vector<Measurement>& known, const std::vector<bool>& doubted) {
     std::vector<Slip> out;
+    Slip all_girths{VFIT_DOUBT_INCHES, {}, kLogUnits}, all_lengths = all_girths;
     for (size_t i = 0; i < known.size(); ++i) {
-        const bool mass = is_mass(known[i].key);
+        if (doubted[i]) continue;
+        const Measurement& m = known[i];
+        const bool mass = is_mass(m.key);
         if (mass) {
-            out.push_back({VFIT_DOUBT_POUNDS, i, i, known[i].value * kPound_kg, kLogUnits});
+            out.push_back({VFIT_DOUBT_POUNDS, {{i, m.value * kPound_kg}}, kLogUnits});
         } else {
-            out.push_back({VFIT_DOUBT_INCHES, i, i, known[i].value * kInch_m * 100.0f, kLogUnits});
+            out.push_back({VFIT_DOUBT_INCHES, {{i, in_inches(m.value)}}, kLogUnits});
+            all_lengths.changes.push_back({i, in_inches(m.value)});
+            if (is_girth(m.key)) all_girths.changes.push_back({i, in_inches(m.value)});
         }
-        for (const float meant : meant_numbers(known[i].value, mass))
-            out.push_back({VFIT_DOUBT_DIGIT, i, i, meant, kLogDigit});
+        for (const float meant : meant_numbers(m.value, mass))
+            out.push_back({VFIT_DOUBT_DIGIT, {{i, meant}}, kLogDigit});
         for (size_t k = i + 1; k < known.size(); ++k)
-            if (is_mass(known[k].key) == mass)
-                out.push_back({VFIT_DOUBT_SWAPPED, i, k, known[k].value, kLogSwapped});
+            if (!doubted[k] && is_mass(known[k].key) == mass)
+                out.push_back({VFIT_DOUBT_SWAPPED, {{i, known[k].value}, {k, m.value}}, kLogSwapped});
     }
+    // Who has a tape in inches takes all girths by it.
+    for (Slip* all : {&all_girths, &all_lengths})
+        if (all->changes.size() > 1) out.push_back(std::move(*all));
     return out;
 }
 
 /// The list as it was meant.
 std::vector<Measurement> mended(std::vector<Measurement> known, const Slip& slip) {
-    const auto put = [](Measurement& m, float value) {
-        m.sigma *= value / m.value;
-        m.value = value;
-    };
-    const float before = known[slip.item].value;
-    put(known[slip.item], slip.meant);
-    if (slip.other != slip.item) put(known[slip.other], before);
+    for (const Slip::Change& change : slip.changes) {
+        Measurement& m = known[change.item];
+        m.sigma *= change.meant / m.value;
+        m.value = change.meant;
+    }
     return known;
+}
+
+/// The density of the given values, not of what they became in another unit.
+double unit_jacobian(const std::vector<Measurement>& known, const Slip& slip) {
+    double sum = 0.0;
+    if (slip.kind == VFIT_DOUBT_INCHES || slip.kind == VFIT_DOUBT_POUNDS)
+        for (const Slip::Change& change : slip.changes)
+            sum += std::log(double(change.meant) / double(known[change.item].value));
+    return sum;
 }
 
 bool plausible(const Measurement& m) {
@@ -112,34 +137,47 @@ bool plausible(const Measurement& m) {
 
 std::vector<Doubt> find_doubts(const PopulationModel& population, const Person& person,
                                std::vector<Measurement> known) {
-    const vfit_sex sex =
-        population.probability_female(person, known) >= 0.5 ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
-    std::erase_if(known, [&](const Measurement& m) { return !population.place(sex, m.key); });
     for (size_t i = 0; i < known.size(); ++i)
         for (size_t k = 0; k < i; ++k)
             if (known[i].key == known[k].key)
                 fail(VFIT_ERROR_DATA, "population: ", known[i].key, " is known twice");
+    const vfit_sex sex =
+        population.probability_female(person, known) >= 0.5 ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
+    std::erase_if(known, [&](const Measurement& m) { return !population.place(sex, m.key); });
     std::vector<Doubt> out;
-    const auto doubt = [&](vfit_doubt_kind kind, size_t item, float suggested) {
-        const Expected e = expected(population, sex, person, known, item);
+    std::vector<bool> doubted(known.size(), false);
+    // `others`: the list by which it is expected.
+    const auto doubt = [&](vfit_doubt_kind kind, size_t item, float suggested,
+                           const std::vector<Measurement>& others) {
+        const Expected e = expected(population, sex, person, others, item);
         const double value = std::exp(e.mean);
         out.push_back(
             {kind, known[item].key, "", known[item].value, suggested, float(value), float(value * e.sd)});
+        doubted[item] = true;
     };
-    const size_t most = known.size();
-    for (size_t round = 0; round < most; ++round) {
+    for (int round = 0; round < kMostSlips; ++round) {
         double best = log_likelihood(population, sex, person, known);
         std::optional<Slip> found;
-        for (const Slip& slip : slips(known)) {
+        for (const Slip& slip : slips(known, doubted)) {
             const auto list = mended(known, slip);
-            if (!plausible(list[slip.item]) || !plausible(list[slip.other])) continue;
-            const double likely = log_likelihood(population, sex, person, list) + slip.log_prior;
+            if (std::any_of(slip.changes.begin(), slip.changes.end(),
+                            [&](const Slip::Change& c) { return !plausible(list[c.item]); }))
+                continue;
+            const double likely =
+                log_likelihood(population, sex, person, list) + slip.log_prior + unit_jacobian(known, slip);
             if (likely > best) best = likely, found = slip;
         }
         if (!found) break;
         const auto list = mended(known, *found);
-        doubt(found->kind, found->item, list[found->item].value);
-        if (found->kind == VFIT_DOUBT_SWAPPED) out.back().other_key = known[found->other].key;
+        if (found->kind == VFIT_DOUBT_SWAPPED) {
+            const auto [item, other] = std::pair(found->changes[0].item, found->changes[1].item);
+            doubt(found->kind, item, list[item].value, list);
+            out.back().other_key = known[other].key;
+            doubted[other] = true;
+        } else {
+            for (const Slip::Change& change : found->changes)
+                doubt(found->kind, change.item, change.meant, list);
+        }
         known = list;
     }
     // What nothing explains: the worst is set aside before the next one is looked for.
@@ -152,9 +190,11 @@ std::vector<Doubt> find_doubts(const PopulationModel& population, const Person& 
             if (z > apart) apart = z, worst = i;
         }
         if (apart < kUnlikely) break;
-        const Expected e = expected(population, sex, person, known, worst);
-        doubt(VFIT_DOUBT_UNLIKELY, worst, float(std::exp(e.mean)));
+        if (!doubted[worst])
+            doubt(VFIT_DOUBT_UNLIKELY, worst,
+                  float(std::exp(expected(population, sex, person, known, worst).mean)), known);
         known.erase(known.begin() + std::ptrdiff_t(worst));
+        doubted.erase(doubted.begin() + std::ptrdiff_t(worst));
     }
     return out;
 }

@@ -17,6 +17,7 @@ constexpr int kVersion = 1;
 constexpr float kYoungest = 18.0f, kOldest = 100.0f;  // years
 constexpr double kAgeError = 0.5;                     // years: an age is told in whole ones
 constexpr size_t kMaxKeys = 64;
+constexpr double kLargestLog = 8.0;  // of a mean: more than any measure has, in metres or kilograms
 
 const Json& field(const Json& object, const char* name, Json::value_t type, const char* type_name) {
     const auto it = object.find(name);
@@ -111,6 +112,9 @@ PopulationModel PopulationModel::parse(std::string_view json) {
         people.covariance.resize(n * n);
         for (size_t i = 0; i < n; ++i) {
             people.mean.push_back(number(mean[i], "the mean of " + people.keys[i] + " of " + who));
+            if (std::abs(people.mean.back()) > (i == 0 ? double(kOldest) : kLargestLog))
+                fail(VFIT_ERROR_DATA, "population: the mean of ", people.keys[i], " of ", who,
+                     " is not plausible");
             if (!rows[i].is_array() || rows[i].size() != i + 1)
                 fail(VFIT_ERROR_DATA, "population: row ", i + 1, " of the covariance of ", who,
                      " is not a list of ", i + 1);
@@ -118,6 +122,10 @@ PopulationModel PopulationModel::parse(std::string_view json) {
                 people.covariance[i * n + k] = people.covariance[k * n + i] =
                     number(rows[i][k], "a covariance of " + people.keys[i] + " of " + who);
         }
+        for (size_t i = 1; i < n; ++i)
+            if (people.covariance[i * n + i] > 1.0)
+                fail(VFIT_ERROR_DATA, "population: the variance of ", people.keys[i], " of ", who,
+                     " is not that of a logarithm");
         if (!is_positive(people.covariance, n))
             fail(VFIT_ERROR_DATA, "population: the covariance of ", who,
                  " is none: it is not positive definite");
@@ -147,15 +155,19 @@ PopulationModel::Belief PopulationModel::prior(vfit_sex sex, const std::optional
 PopulationModel::Belief PopulationModel::belief(vfit_sex sex, const Person& person,
                                                 const std::vector<Measurement>& known) const {
     Belief belief = prior(sex, person.age_years);
-    for (const Measurement& m : known) {
-        const auto at = place(sex, m.key);
-        // What one sex alone has says nothing of the other.
-        const vfit_sex other = sex == VFIT_SEX_MALE ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
-        if (!at) continue;
-        const double before = belief.log_likelihood, error = log_error(m);
-        belief.observe(*at, std::log(double(m.value)), error * error);
-        if (!place(other, m.key)) belief.log_likelihood = before;
-    }
+    const vfit_sex other = sex == VFIT_SEX_MALE ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
+    const auto observe = [&](bool common) {
+        for (const Measurement& m : known)
+            if (const auto at = place(sex, m.key); at && place(other, m.key).has_value() == common) {
+                const double error = log_error(m);
+                belief.observe(*at, std::log(double(m.value)), error * error);
+            }
+    };
+    observe(true);
+    // What one sex alone has does not tell which one it is.
+    const double likelihood = belief.log_likelihood;
+    observe(false);
+    belief.log_likelihood = likelihood;
     return belief;
 }
 
@@ -180,8 +192,11 @@ std::vector<Measurement> PopulationModel::estimate(const Person& person,
     };
     std::vector<Part> parts;
     const double female = probability_female(person, known);
-    if (female > 0.0) parts.push_back({VFIT_SEX_FEMALE, female, belief(VFIT_SEX_FEMALE, person, known)});
-    if (female < 1.0) parts.push_back({VFIT_SEX_MALE, 1.0 - female, belief(VFIT_SEX_MALE, person, known)});
+    const bool unknown = person.sex == VFIT_SEX_UNKNOWN;
+    if (unknown || female > 0.0)
+        parts.push_back({VFIT_SEX_FEMALE, female, belief(VFIT_SEX_FEMALE, person, known)});
+    if (unknown || female < 1.0)
+        parts.push_back({VFIT_SEX_MALE, 1.0 - female, belief(VFIT_SEX_MALE, person, known)});
     std::vector<Measurement> out;
     const std::vector<std::string>& keys = of(parts[0].sex).keys;
     for (size_t i = 1; i < keys.size(); ++i) {
@@ -200,7 +215,10 @@ std::vector<Measurement> PopulationModel::estimate(const Person& person,
         out.push_back({keys[i], float(value), float(value * sd), find(known, keys[i]) != nullptr});
     }
     for (const Measurement& m : known)
-        if (!find(out, m.key)) out.push_back(m);
+        if (!find(out, m.key)) {
+            out.push_back(m);
+            out.back().sigma = float(double(m.value) * log_error(m));
+        }
     std::stable_sort(out.begin(), out.end(), [](const Measurement& a, const Measurement& b) {
         return measure_order(a.key) < measure_order(b.key);
     });

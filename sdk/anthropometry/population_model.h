@@ -42,7 +42,8 @@ public:
 
     /// Every measure of the population, of an unknown sex those that both sexes have; known ones are
     /// observed. A known sigma of 0 is that of a typed measure. Known measures that the population has not
-    /// are passed through. A key that is known twice, or an age that no adult has: VFIT_ERROR_DATA,
+    /// are passed through. Their sigma is then that of a typed
+    /// measure where it was 0. A key that is known twice, or an age that no adult has: VFIT_ERROR_DATA,
     /// VFIT_ERROR_ARGUMENT.
     std::vector<Measurement> estimate(const Person& person, const std::vector<Measurement>& known) const;
 

@@ -43,11 +43,12 @@ bool arms_out(const Body& body) {
 Measurement above(Measurement m, float bound) {
     const double from = double(bound - m.value) / double(m.sigma);
     if (from < -4.0) return m;
-    const double pi = double(kPi), density = std::exp(-0.5 * from * from) / std::sqrt(2.0 * pi),
-                 beyond = std::max(1e-12, 0.5 * std::erfc(from / std::sqrt(2.0)));
-    const double ratio = density / beyond;  // Mills's, inverted
+    // Mills's ratio, inverted; far out by its expansion, where the tail underflows.
+    const double density = std::exp(-0.5 * from * from) / std::sqrt(2.0 * double(kPi)),
+                 beyond = 0.5 * std::erfc(from / std::sqrt(2.0)),
+                 ratio = from < 5.0 ? density / beyond : from + 1.0 / from;
     m.value += float(double(m.sigma) * ratio);
-    m.sigma *= float(std::sqrt(std::max(0.01, 1.0 + from * ratio - ratio * ratio)));
+    m.sigma *= float(from < 5.0 ? std::sqrt(1.0 + from * ratio - ratio * ratio) : 1.0 / from);
     return m;
 }
 

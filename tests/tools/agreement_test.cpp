@@ -28,6 +28,13 @@ TEST(Agreement, BiasScatterAndLimits) {
     EXPECT_NEAR(agreement(people({-9, 0, 0, 9})).covered, 0.5, 1e-9);
 }
 
+TEST(Agreement, ScansWithoutASigmaAreNotCountedAsIntervals) {
+    auto list = people({1, 2});
+    list[0].sigma = 0.0;
+    EXPECT_EQ(agreement(list).told, 1u);
+    EXPECT_EQ(agreement(list).covered, 1.0);
+}
+
 TEST(Agreement, ManyScansOfOnePersonAreOnePerson) {
     auto list = people({0, 0, 12});
     for (int i = 0; i < 20; ++i) list.push_back(list[2]);

@@ -40,7 +40,7 @@ class JudgePopulationTest(unittest.TestCase):
         self.assertNotIn("waist_navel_girth_m", one)
 
     def test_a_table_of_ones_own_has_keys(self):
-        people = self.read("sex,stature_m,body_mass_kg,hip_girth_m\nf,1.7,60,1.0\nf,0.75,60,1.0\n")
+        people = self.read("id,sex,stature_m,body_mass_kg,hip_girth_m\n7,f,1.7,60,1.0\n8,f,0.75,60,1.0\n")
         self.assertEqual(people, [{"sex": "f", "stature_m": 1.7, "body_mass_kg": 60.0, "hip_girth_m": 1.0}])
 
     def test_what_is_no_table_is_refused(self):
@@ -56,10 +56,10 @@ class JudgePopulationTest(unittest.TestCase):
             "chest_girth_m": 0.9,
             "hip_girth_m": 1.0,
         }
-        Doubt = namedtuple("Doubt", "key suggested")
+        Doubt = namedtuple("Doubt", "key suggested other_key")
 
         def check(known, sex):  # finds what changed, and nothing else
-            return [Doubt(key, person[key]) for key in known if known[key] != person[key]]
+            return [Doubt(key, person[key], "") for key in known if known[key] != person[key]]
 
         with contextlib.redirect_stdout(io.StringIO()):
             alarms, found = judge.report_slips("women", [person], check)

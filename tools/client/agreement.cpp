@@ -1,5 +1,6 @@
 #include "client/agreement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -26,26 +27,26 @@ Agreement agreement(const std::vector<Compared>& list) {
     };
     std::map<std::string, Sum> people;
     Agreement out;
-    double sum = 0.0, squares = 0.0;
     for (const Compared& c : list) {
         people[c.person].errors += c.error();
         ++people[c.person].scans;
-        sum += c.error(), squares += c.error() * c.error();
         out.mean_absolute += std::abs(c.error());
-        out.covered += std::abs(c.error()) <= 1.645 * c.sigma;
+        out.told += c.sigma > 0.0;
+        out.covered += c.sigma > 0.0 && std::abs(c.error()) <= 1.645 * c.sigma;
     }
     out.scans = uint32_t(list.size());
     out.people = uint32_t(people.size());
     out.mean_absolute /= out.scans;
-    out.covered /= out.scans;
+    out.covered /= std::max(1u, out.told);
     for (const auto& [name, person] : people) out.bias += person.mean() / out.people;
     double spread = 0.0;
     for (const auto& [name, person] : people) spread += std::pow(person.mean() - out.bias, 2.0);
     out.confidence = out.people < 2
                          ? std::numeric_limits<double>::infinity()
                          : student_t_975(out.people - 1) * std::sqrt(spread / (out.people - 1) / out.people);
-    const double mean = sum / out.scans;
-    if (out.scans > 1) out.sd = std::sqrt(std::max(0.0, squares - out.scans * mean * mean) / (out.scans - 1));
+    for (const Compared& c : list)
+        if (out.scans > 1) out.sd += std::pow(c.error() - out.bias, 2.0) / (out.scans - 1);
+    out.sd = std::sqrt(out.sd);
     out.low = out.bias - 1.96 * out.sd;
     out.high = out.bias + 1.96 * out.sd;
     return out;

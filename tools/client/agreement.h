@@ -20,10 +20,11 @@ struct Agreement {
     double bias = 0.0;  // mean over people of their scans' mean errors
     double confidence =
         0.0;          // half of the 95 % interval of bias, by Student's t over people; infinite: of one
-    double sd = 0.0;  // of all errors
+    double sd = 0.0;  // of all scans' errors about bias; of one scan 0
     double mean_absolute = 0.0;
     double low = 0.0, high = 0.0;  // limits of agreement: bias -+ 1.96 sd (Bland and Altman 1986)
-    double covered = 0.0;          // fraction of scans whose 90 % interval holds the tape
+    uint32_t told = 0;             // scans that told a sigma
+    double covered = 0.0;          // fraction of these whose 90 % interval holds the tape
 };
 
 /// Of at least one.

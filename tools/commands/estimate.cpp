@@ -95,8 +95,15 @@ vfit_measurement measurement_of(const std::string& text) {
     vfit_measurement m = vfit_measurement_init();
     const std::string key = key_of(text.substr(0, equals)), amount = text.substr(equals + 1);
     const size_t error = amount.find("+-");
-    m.value = float(amount_of(amount.substr(0, error), is_mass(key)));
-    if (error != std::string::npos) m.sigma = float(amount_of(amount.substr(error + 2), is_mass(key)));
+    const std::string value = amount.substr(0, error);
+    m.value = float(amount_of(value, is_mass(key)));
+    if (error != std::string::npos) {
+        std::string sigma = amount.substr(error + 2);
+        // "81cm+-2": in the value's unit.
+        if (!sigma.empty() && sigma.find_first_not_of("0123456789.") == std::string::npos)
+            sigma += value.substr(value.find_last_of("0123456789.") + 1);
+        m.sigma = float(amount_of(sigma, is_mass(key)));
+    }
     m.observed = 1;
     key.copy(m.key, sizeof m.key - 1);
     return m;
@@ -104,7 +111,13 @@ vfit_measurement measurement_of(const std::string& text) {
 
 constexpr const char* kKinds[] = {"unlikely", "inches", "pounds", "digit", "swapped"};
 
-Json estimate(const Options& o) {
+struct Estimate {
+    Json report;
+    std::vector<vfit_measurement> measures;
+    vfit_sex sex = VFIT_SEX_UNKNOWN;
+};
+
+Estimate estimate(const Options& o) {
     std::vector<vfit_measurement> known;
     vfit_sex sex = sex_from(o.sex);
     if (!o.known.empty()) {
@@ -119,14 +132,14 @@ Json estimate(const Options& o) {
     vfit_person person = vfit_person_init();
     person.sex = sex;
     person.age_years = o.age;
+    const auto measures = list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_population_estimate(population.get(), &person, known.data(), sizeof known[0],
+                                        uint32_t(known.size()), items, stride, n);
+    });
     Json out;
     out["population"] = o.population;
     out["sex"] = sex_text(sex);
-    out["measurements"] =
-        measurements_json(list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
-            return vfit_population_estimate(population.get(), &person, known.data(), sizeof known[0],
-                                            uint32_t(known.size()), items, stride, n);
-        }));
+    out["measurements"] = measurements_json(measures);
     out["doubts"] = Json::array();
     for (const vfit_doubt& d : list<vfit_doubt>([&](auto* items, uint32_t stride, uint32_t* n) {
              return vfit_population_check(population.get(), &person, known.data(), sizeof known[0],
@@ -138,7 +151,7 @@ Json estimate(const Options& o) {
         if (d.other_key[0]) doubt["other_key"] = d.other_key;
         out["doubts"].push_back(doubt);
     }
-    return out;
+    return {out, measures, sex};
 }
 
 std::string in_words(const std::string& key, double value) {
@@ -181,14 +194,12 @@ void add_estimate(Command& app) {
     command.add_option("--profile", o->profile, "File to write the measures to, for vfit size");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] {
-        const Json result = estimate(*o);
+        const Estimate result = estimate(*o);
         if (o->json)
-            print_document(result);
+            print_document(result.report);
         else
-            print(result);
-        if (!o->profile.empty())
-            write_text(o->profile,
-                       profile_text(measurements_from(result.dump()).measurements, sex_from(result["sex"])));
+            print(result.report);
+        if (!o->profile.empty()) write_text(o->profile, profile_text(result.measures, result.sex));
     });
 }
 

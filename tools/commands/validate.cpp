@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "client/agreement.h"
 #include "client/csv_rows.h"
@@ -46,7 +47,7 @@ bool is_measure(const std::string& name) {
     char key[48];
     for (uint32_t i = 0; vfit_measure_key(i, key, sizeof key) > 0; ++i)
         if (name == key) return true;
-    return name.rfind("x_", 0) == 0;
+    return name.rfind("x_", 0) == 0 && name.size() > 4 && name.substr(name.size() - 2) == "_m";
 }
 
 struct Column {
@@ -83,7 +84,12 @@ std::vector<Case> cases_of_table(const fs::path& file) {
     CsvRows rows(in, file.string());
     if (!rows.next()) throw Failure(file.string() + ": is empty");
     std::vector<Column> columns;
-    for (size_t i = 0; i < rows.size(); ++i) columns.push_back(column_of(std::string(rows.cell(i)), rows));
+    for (size_t i = 0; i < rows.size(); ++i) {
+        columns.push_back(column_of(std::string(rows.cell(i)), rows));
+        for (size_t k = 0; k < i; ++k)
+            if (columns[k].name == columns[i].name)
+                rows.fail(i, "is the second column of " + columns[i].name);
+    }
     if (std::none_of(columns.begin(), columns.end(), [](const Column& c) { return c.name == "scan"; }))
         rows.fail("there is no column \"scan\"");
     std::vector<Case> cases;
@@ -96,6 +102,11 @@ std::vector<Case> cases_of_table(const fs::path& file) {
             if (text.empty()) continue;
             if (columns[i].measure) {
                 one.tape[name] = columns[i].unit * rows.number(i);
+                try {
+                    measurements_from(Json{{name, one.tape[name]}}.dump());
+                } catch (const Failure& failure) {
+                    rows.fail(i, std::string("is not plausible: ") + failure.what());
+                }
             } else if (name == "scan") {
                 const fs::path beside = file.parent_path() / text;
                 std::error_code error;
@@ -196,9 +207,13 @@ Json validate(const Options& o, ByMeasure& compared) {
                 std::vector<vfit_measurement> list = scanned(context.get(), o, one);
                 if (!calibration.empty()) list = calibrated_measurements(calibration, list);
                 if (one.tape.empty()) throw Failure("no tape measure of this person is known");
+                bool common = false;
                 for (const vfit_measurement& m : list)
-                    if (const auto at = one.tape.find(m.key); at != one.tape.end())
+                    if (const auto at = one.tape.find(m.key); at != one.tape.end()) {
                         compared[m.key].push_back({one.person, double(m.value), double(m.sigma), at->second});
+                        common = true;
+                    }
+                if (!common) throw Failure("scan and tape have no measure in common");
             } catch (const Failure& failure) {
                 failed.push_back({{"scan", one.scan}, {"reason", failure.what()}});
             }
@@ -209,13 +224,10 @@ Json validate(const Options& o, ByMeasure& compared) {
     for (const auto& [key, list] : compared) {
         const Agreement a = agreement(list);
         const double limit = iso_20685_limit_m(key);
-        Json one = {{"people", a.people},
-                    {"scans", a.scans},
-                    {"bias", a.bias},
-                    {"sd", a.sd},
-                    {"mean_absolute", a.mean_absolute},
-                    {"limits_of_agreement", {a.low, a.high}},
-                    {"within_90_percent", a.covered}};
+        Json one = {
+            {"people", a.people}, {"scans", a.scans}, {"bias", a.bias}, {"mean_absolute", a.mean_absolute}};
+        if (a.scans > 1) one["sd"] = a.sd, one["limits_of_agreement"] = {a.low, a.high};
+        if (a.told > 0) one["within_90_percent"] = a.covered;
         if (std::isfinite(a.confidence)) one["bias_confidence"] = a.confidence;
         if (limit > 0.0) {
             const Verdict verdict = iso_20685_verdict(a, limit);
@@ -227,6 +239,12 @@ Json validate(const Options& o, ByMeasure& compared) {
         out["measures"][key] = one;
     }
     return out;
+}
+
+std::string text_of(double value, int digits) {
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(digits) << value;
+    return out.str();
 }
 
 void print(const Json& result) {
@@ -250,10 +268,13 @@ void print(const Json& result) {
             std::cout << " +-" << std::setw(5) << amount(m["bias_confidence"]);
         else
             std::cout << "        ";
-        std::cout << std::setw(8) << amount(m["sd"]) << std::setw(10) << amount(m["mean_absolute"])
-                  << std::setw(9) << amount(m["limits_of_agreement"][0]) << std::setw(9)
-                  << amount(m["limits_of_agreement"][1]) << std::setprecision(0) << std::setw(6)
-                  << 100.0 * m["within_90_percent"].get<double>() << " %";
+        const bool several = m.contains("sd"), told = m.contains("within_90_percent");
+        std::cout << std::setw(8) << (several ? text_of(amount(m["sd"]), 1) : "-") << std::setw(10)
+                  << amount(m["mean_absolute"]) << std::setw(9)
+                  << (several ? text_of(amount(m["limits_of_agreement"][0]), 1) : "-") << std::setw(9)
+                  << (several ? text_of(amount(m["limits_of_agreement"][1]), 1) : "-") << std::setw(6)
+                  << (told ? text_of(100.0 * m["within_90_percent"].get<double>(), 0) + " %" : "-")
+                  << std::setprecision(0);
         if (m.contains("iso_20685"))
             std::cout << "  " << 1000.0 * m["iso_20685_m"].get<double>()
                       << " mm: " << m["iso_20685"].get<std::string>();
@@ -269,7 +290,8 @@ void draw(const Options& o, const ByMeasure& compared) {
         if (const auto at = compared.find(key); at != compared.end())
             panels.push_back({key, at->second, iso_20685_limit_m(key)});
     for (const auto& [key, list] : compared)
-        if (panels.empty()) panels.push_back({key, list, iso_20685_limit_m(key)});
+        if (panels.empty())
+            panels.push_back({key, list, iso_20685_limit_m(key), key.find("_kg") != std::string::npos});
     draw_agreement(panels).write_png(o.picture);
 }
 

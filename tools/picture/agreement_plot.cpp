@@ -49,15 +49,16 @@ public:
         if (panel_.limit_m > 0.0)
             canvas_.fill_rect(px(x0_), py(panel_.limit_m), px(x1_) - px(x0_),
                               py(-panel_.limit_m) - py(panel_.limit_m), kBand);
-        const double y_step = nice_step(1000.0 * (y1_ - y0_)) / 1000.0;
+        const double y_unit = panel_.mass ? 1.0 : 1000.0, x_unit = panel_.mass ? 1.0 : 100.0;
+        const double y_step = nice_step(y_unit * (y1_ - y0_)) / y_unit;
         for (double y = std::ceil(y0_ / y_step) * y_step; y <= y1_; y += y_step) {
             level(y, 1, kGrid);
-            const std::string label = number(1000.0 * y);
+            const std::string label = number(y_unit * y);
             canvas_.text(px(x0_) - 8 - Canvas::text_width(label, 9), py(y) + 4, label, 9, kInk);
         }
-        const double x_step = nice_step(100.0 * (x1_ - x0_)) / 100.0;
+        const double x_step = nice_step(x_unit * (x1_ - x0_)) / x_unit;
         for (double x = std::ceil(x0_ / x_step) * x_step; x <= x1_; x += x_step) {
-            const std::string label = number(100.0 * x);
+            const std::string label = number(x_unit * x);
             canvas_.text(px(x) - Canvas::text_width(label, 9) / 2, top_ + kHeight - kBottom + 16, label, 9,
                          kInk);
         }
@@ -71,7 +72,10 @@ public:
             canvas_.line(float(px(x1_) - 6), float(py(agreement_.bias - agreement_.confidence)),
                          float(px(x1_) - 6), float(py(agreement_.bias + agreement_.confidence)), 2, kMean);
         canvas_.text(left_ + kLeft, top_ + 22, panel_.title, 12, kInk);
-        canvas_.text(left_ + kLeft, top_ + 40, "scan - tape, mm, over their mean, cm", 9, kLimits);
+        canvas_.text(
+            left_ + kLeft, top_ + 40,
+            panel_.mass ? "scan - tape, kg, over their mean" : "scan - tape, mm, over their mean, cm", 9,
+            kLimits);
     }
 
 private:

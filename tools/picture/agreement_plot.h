@@ -13,6 +13,7 @@ struct AgreementPanel {
     std::string title;
     std::vector<Compared> list;
     double limit_m = 0.0;  // of the mean; 0: none is drawn
+    bool mass = false;     // kilograms instead of metres
 };
 
 /// A panel a measure, two beside each other: a dot a scan, the mean with its 95 % interval, the limits of

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -92,6 +93,21 @@ TEST(PopulationModel, MixesTheSexesByHowWellTheMeasuresSuitThem) {
     EXPECT_GT(sigma(m, "stature_m"), 1.05f * sigma(model.estimate({VFIT_SEX_MALE, {}}, {}), "stature_m"));
 }
 
+TEST(PopulationModel, OrderDoesNotMatter) {
+    std::vector<Measurement> known = {{"underbust_girth_m", 0.75f, 0.0f, true},
+                                      {"stature_m", 1.75f, 0.0f, true},
+                                      {"body_mass_kg", 70.0f, 0.0f, true}};
+    const auto one = adults().estimate({}, known);
+    std::reverse(known.begin(), known.end());
+    const auto other = adults().estimate({}, known);
+    EXPECT_NEAR(value(one, "hip_girth_m"), value(other, "hip_girth_m"), 1e-5f);
+    EXPECT_NEAR(sigma(one, "underbust_girth_m"), 0.025f * 0.75f, 1e-6f) << "as it was typed";
+    // However clear the sex is: it was not told.
+    known.push_back({"shoulder_breadth_m", 0.40f, 0.001f, true});
+    known.push_back({"neck_girth_m", 0.30f, 0.001f, true});
+    EXPECT_EQ(adults().estimate({}, known).size(), one.size());
+}
+
 TEST(PopulationModel, PassesThroughWhatItDoesNotHave) {
     const auto model = PopulationModel::parse(small_text());
     const auto m = model.estimate({}, {{"x_calf_girth_m", 0.37f, 0.01f, true}});
@@ -122,6 +138,8 @@ TEST(PopulationModel, RefusesWhatIsNoPopulationAndNamesTheFault) {
     refused([](Json& f) { f["women"]["mean"][1] = "tall"; }, "stature_m");
     refused([](Json& f) { f["men"]["covariance"][1] = {0.1}; }, "row 2");
     refused([](Json& f) { f["men"]["covariance"][2][1] = 1.0; }, "positive definite");
+    refused([](Json& f) { f["men"]["mean"][1] = 800.0; }, "not plausible");
+    refused([](Json& f) { f["men"]["covariance"][1][1] = 30.0; }, "logarithm");
     EXPECT_THROW(PopulationModel::parse("{"), Error);
     EXPECT_THROW(PopulationModel::parse("[]"), Error);
 }
@@ -216,6 +234,37 @@ TEST(MeasureDoubts, FindsTwoSlipsOfOneList) {
     const auto doubts = find_doubts(adults(), {VFIT_SEX_MALE, {}}, known);
     ASSERT_EQ(doubts.size(), 2u);
     EXPECT_NE(doubts[0].key, doubts[1].key);
+}
+
+TEST(MeasureDoubts, AllGirthsInInchesAreOneSlip) {
+    auto known = usual_man();
+    for (size_t i = 2; i < known.size(); ++i) known[i].value /= 2.54f;
+    const auto doubts = find_doubts(adults(), {VFIT_SEX_MALE, {}}, known);
+    ASSERT_EQ(doubts.size(), 3u);
+    for (size_t i = 0; i < doubts.size(); ++i) {
+        EXPECT_EQ(doubts[i].kind, VFIT_DOUBT_INCHES) << doubts[i].key;
+        EXPECT_NEAR(doubts[i].suggested, usual_man()[i + 2].value, 1e-4f);
+        EXPECT_NEAR(doubts[i].expected, usual_man()[i + 2].value, 2.5f * doubts[i].sigma);
+    }
+}
+
+TEST(MeasureDoubts, NamesWhatWasGiven) {
+    // Hopeless lists too: each key once, with the value that it had.
+    const std::vector<Measurement> known = {{"stature_m", 1.72f, 0.0f, true},
+                                            {"body_mass_kg", 154.0f, 0.0f, true},
+                                            {"chest_girth_m", 0.36f, 0.0f, true},
+                                            {"waist_girth_m", 0.30f, 0.0f, true},
+                                            {"hip_girth_m", 0.39f, 0.0f, true}};
+    const auto doubts = find_doubts(adults(), {VFIT_SEX_FEMALE, {}}, known);
+    EXPECT_GE(doubts.size(), 3u);
+    for (size_t i = 0; i < doubts.size(); ++i) {
+        EXPECT_FLOAT_EQ(doubts[i].value, find(known, doubts[i].key)->value);
+        for (size_t k = 0; k < i; ++k) EXPECT_NE(doubts[i].key, doubts[k].key);
+    }
+    EXPECT_THROW(
+        find_doubts(adults(), {VFIT_SEX_MALE, {}},
+                    {{"underbust_girth_m", 0.75f, 0.0f, true}, {"underbust_girth_m", 0.75f, 0.0f, true}}),
+        Error);
 }
 
 TEST(MeasureDoubts, TellsWhatNoSlipExplains) {

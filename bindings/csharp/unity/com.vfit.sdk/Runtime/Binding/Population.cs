@@ -54,7 +54,7 @@ namespace Vfit
 
         private static Person PersonOf(Sex sex, float ageYears)
         {
-            return new Person { Sex = sex, AgeYears = ageYears };
+            return new Person { StructSize = (uint)sizeof(Person), Sex = sex, AgeYears = ageYears };
         }
     }
 }
