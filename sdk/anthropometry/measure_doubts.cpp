@@ -17,7 +17,7 @@ const double kLogUnits = std::log(1.0 / 200.0), kLogDigit = std::log(1.0 / 500.0
              kLogSwapped = std::log(1.0 / 500.0);
 // Of a value that nothing explains, and of what a slip leaves: in standard deviations.
 constexpr double kUnlikely = 4.0;
-constexpr int kMostSlips = 5;  // of a list; with more there is little left to trust
+constexpr int kMaxSlips = 5;  // of a list; with more there is little left to trust
 
 /// Of a list that could be as it is.
 double log_likelihood(const PopulationModel& population, vfit_sex sex, const Person& person,
@@ -103,7 +103,7 @@ std::vector<Slip> slips(const std::vector<Measurement>& known, const std::vector
             if (!doubted[k] && is_mass(known[k].key) == mass)
                 out.push_back({VFIT_DOUBT_SWAPPED, {{i, known[k].value}, {k, m.value}}, kLogSwapped});
     }
-    // Who has a tape in inches takes all girths by it.
+    // A tape in inches gives all girths in inches.
     for (Slip* all : {&all_girths, &all_lengths})
         if (all->changes.size() > 1) out.push_back(std::move(*all));
     return out;
@@ -155,7 +155,7 @@ std::vector<Doubt> find_doubts(const PopulationModel& population, const Person& 
             {kind, known[item].key, "", known[item].value, suggested, float(value), float(value * e.sd)});
         doubted[item] = true;
     };
-    for (int round = 0; round < kMostSlips; ++round) {
+    for (int round = 0; round < kMaxSlips; ++round) {
         double best = log_likelihood(population, sex, person, known);
         std::optional<Slip> found;
         for (const Slip& slip : slips(known, doubted)) {

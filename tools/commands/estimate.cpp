@@ -96,6 +96,7 @@ vfit_measurement measurement_of(const std::string& text) {
     const std::string key = key_of(text.substr(0, equals)), amount = text.substr(equals + 1);
     const size_t error = amount.find("+-");
     const std::string value = amount.substr(0, error);
+    if (value.empty()) throw WrongUsage("\"" + text + "\" has no amount, such as height=172cm");
     m.value = float(amount_of(value, is_mass(key)));
     if (error != std::string::npos) {
         std::string sigma = amount.substr(error + 2);
