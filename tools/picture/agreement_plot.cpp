@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "picture/axis.h"
 
 namespace vfit::tools {
 
@@ -12,20 +13,6 @@ constexpr int kWidth = 520, kHeight = 340, kLeft = 70, kRight = 24, kTop = 52, k
 constexpr Color kPaper{1, 1, 1}, kInk{0.16f, 0.17f, 0.20f}, kGrid{0.88f, 0.88f, 0.90f},
     kDot{0.20f, 0.42f, 0.66f}, kMean{0.80f, 0.27f, 0.30f}, kLimits{0.50f, 0.52f, 0.56f},
     kBand{0.91f, 0.96f, 0.90f};
-
-/// 1, 2 or 5 times a power of ten, about a fifth of the range.
-double nice_step(double range) {
-    const double raw = range / 5.0, power = std::pow(10.0, std::floor(std::log10(raw)));
-    for (const double f : {1.0, 2.0, 5.0})
-        if (raw <= f * power) return f * power;
-    return 10.0 * power;
-}
-
-std::string number(double x) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%g", std::round(x * 1e4) / 1e4);
-    return text;
-}
 
 /// One measure, its upper left corner at (left, top).
 class Panel {
@@ -53,12 +40,12 @@ public:
         const double y_step = nice_step(y_unit * (y1_ - y0_)) / y_unit;
         for (double y = std::ceil(y0_ / y_step) * y_step; y <= y1_; y += y_step) {
             level(y, 1, kGrid);
-            const std::string label = number(y_unit * y);
+            const std::string label = axis_label(y_unit * y);
             canvas_.text(px(x0_) - 8 - Canvas::text_width(label, 9), py(y) + 4, label, 9, kInk);
         }
         const double x_step = nice_step(x_unit * (x1_ - x0_)) / x_unit;
         for (double x = std::ceil(x0_ / x_step) * x_step; x <= x1_; x += x_step) {
-            const std::string label = number(x_unit * x);
+            const std::string label = axis_label(x_unit * x);
             canvas_.text(px(x) - Canvas::text_width(label, 9) / 2, top_ + kHeight - kBottom + 16, label, 9,
                          kInk);
         }

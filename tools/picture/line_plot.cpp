@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "picture/axis.h"
 
 namespace vfit::tools {
 
@@ -12,20 +13,6 @@ constexpr int kLeft = 90, kRight = 30, kTop = 60, kBottom = 70;  // pixels
 constexpr Color kPaper{1, 1, 1}, kInk{0.16f, 0.17f, 0.20f}, kGrid{0.88f, 0.88f, 0.90f},
     kMark{0.50f, 0.52f, 0.56f}, kLine{0.80f, 0.27f, 0.30f};
 constexpr Color kBehind[] = {{0.55f, 0.60f, 0.72f}, {0.45f, 0.68f, 0.50f}, {0.80f, 0.65f, 0.35f}};
-
-/// The step of 1, 2 or 5 times a power of ten that cuts the range in about five.
-float nice_step(float range) {
-    const float raw = range / 5.0f, power = std::pow(10.0f, std::floor(std::log10(raw)));
-    for (const float f : {1.0f, 2.0f, 5.0f})
-        if (raw <= f * power) return f * power;
-    return 10.0f * power;
-}
-
-std::string number(float x) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%g", double(std::round(x * 1e4f) / 1e4f));
-    return text;
-}
 
 }  // namespace
 
@@ -42,7 +29,7 @@ Canvas draw_curve(const Curve& curve, int width, int height) {
     };
     include(curve.points);
     for (const Curve::Line& line : curve.behind) include(line.points);
-    const float y_step = nice_step(y1 - y0), x_step = nice_step(x1 - x0);
+    const float y_step = float(nice_step(double(y1 - y0))), x_step = float(nice_step(double(x1 - x0)));
     y0 = std::floor(y0 / y_step) * y_step;
     y1 = std::ceil(y1 / y_step) * y_step;
     const auto px = [&](float x) {
@@ -54,12 +41,12 @@ Canvas draw_curve(const Curve& curve, int width, int height) {
     for (int i = 0; y0 + float(i) * y_step <= y1 + 0.01f * y_step; ++i) {
         const float y = y0 + float(i) * y_step;
         canvas.line(px(x0), py(y), px(x1), py(y), 1, kGrid);
-        const std::string label = number(y);
+        const std::string label = axis_label(double(y));
         canvas.text(kLeft - 10 - Canvas::text_width(label, 11), static_cast<int>(py(y)) + 5, label, 11, kInk);
     }
     for (int i = 0; float(i) * x_step <= x1 * 1.001f; ++i)
         canvas.text(static_cast<int>(px(float(i) * x_step)) - 5, height - kBottom + 22,
-                    number(float(i) * x_step), 11, kInk);
+                    axis_label(double(float(i) * x_step)), 11, kInk);
     canvas.line(px(x0), py(0), px(x1), py(0), 1, kInk);
     for (const auto& [x, name] : curve.marks) {
         canvas.line(px(x), float(kTop), px(x), float(height - kBottom), 1, kMark);

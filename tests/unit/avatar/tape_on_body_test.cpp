@@ -84,6 +84,33 @@ TEST(TapeOnBody, LevelsAreInTheOrderOfTheBody) {
     }
 }
 
+TEST(TapeOnBody, ThreeWaistsLieWhereTheirDefinitionsSay) {
+    for (const vfit_sex sex : kSexes) {
+        const auto m = measures(sex);
+        EXPECT_LE(value(m, "waist_minimum_girth_m"), value(m, "waist_girth_m") + 1e-4f);
+        EXPECT_LE(value(m, "waist_minimum_girth_m"), value(m, "waist_navel_girth_m") + 1e-4f);
+        // The navel at 0.602 of stature: between the hip joint and the foot of the neck by the survey's
+        // heights.
+        const bool woman = sex == VFIT_SEX_FEMALE;
+        const float hip = woman ? 0.519f : 0.513f, neck = woman ? 0.857f : 0.864f;
+        AvatarDesc desc;
+        desc.sex = sex;
+        const Avatar avatar(body_model(), desc, body_model()->default_shape(sex), Vec2(1.0f));
+        Body joints;
+        const Mesh mesh = avatar.measuring_mesh(MeasuringPosture{}, &joints);
+        const TapeMesh body(
+            {mesh.positions, mesh.indices, avatar.parts().first(mesh.positions.size()), joints, sex});
+        const float from = 0.5f * (body.joint(VFIT_JOINT_LEFT_HIP).y + body.joint(VFIT_JOINT_RIGHT_HIP).y),
+                    to = body.joint(VFIT_JOINT_NECK).y;
+        const float level = glm::mix(from, to, (0.602f - hip) / (neck - hip));
+        EXPECT_NEAR(value(m, "waist_navel_girth_m"), hull_perimeter(body.trunk(level).points()), 2e-3f);
+        // No level in between is narrower.
+        const float arch = glm::mix(waist_height(body), to, 0.2f);
+        for (float y = level; y < arch; y += 0.005f)
+            EXPECT_GE(hull_perimeter(body.trunk(y).points()), value(m, "waist_minimum_girth_m") - 5e-4f) << y;
+    }
+}
+
 struct Follower {
     const char* slider;
     const char* key;
