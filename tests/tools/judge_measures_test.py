@@ -1,5 +1,6 @@
 """The judge of measures poses a figure whose girths are known, and reads them off."""
 
+import importlib.util
 import sys
 import unittest
 from pathlib import Path
@@ -15,6 +16,15 @@ from character import Character  # noqa: E402
 from glb import Glb  # noqa: E402
 from judge_characters_test import BONES, box_man  # noqa: E402
 from motion import Actor, still  # noqa: E402
+
+
+def judge():
+    """The program itself, as a module."""
+    path = ROOT / "tools/judge_measures/__main__.py"
+    spec = importlib.util.spec_from_file_location("judge_measures", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def man():
@@ -110,6 +120,28 @@ class PostureTest(unittest.TestCase):
         as_they_are = Actor(still(man()), np.zeros(1), 1.8, 1.0).joints(0)
         apart = BONES["LeftFoot"][1][0] - BONES["RightFoot"][1][0]
         self.assertAlmostEqual(as_they_are["LEFT_FOOT"][0] - as_they_are["RIGHT_FOOT"][0], apart, delta=0.001)
+
+    def test_each_measure_is_taken_in_the_stance_of_its_definition(self):
+        module = judge()
+        person = object.__new__(module.Person)
+        person.sex = "m"
+        asked = []
+
+        def actor(out_deg, ahead_deg, feet_m=None):
+            asked.append(feet_m)
+            return Actor(standing(man(), out_deg, ahead_deg, feet_m), np.zeros(1), 1.8, 1.0)
+
+        class Extent:  # of a figure of boxes, which has no trunk to lay a tape about
+            def __init__(self, figure, sex):
+                self.stature_m = float(np.ptp(figure.skin(0)[:, 1]))
+
+            def measures(self):
+                return {"stature_m": self.stature_m, "hip_girth_m": self.stature_m}
+
+        person.actor, module.Tape = actor, Extent
+        truth = person.truth()
+        self.assertEqual(asked, [module.FEET_APART_M, module.FEET_TOGETHER_M])
+        self.assertGreater(truth["stature_m"], truth["hip_girth_m"], "feet together stand taller")
 
 
 if __name__ == "__main__":

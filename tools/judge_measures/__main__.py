@@ -32,6 +32,9 @@ GIRTHS, DEPTHS = (0.92, 1.0, 1.08, 1.18), (1.0, 0.95, 1.08)
 STATURES_M = {"f": (1.52, 1.60, 1.68, 1.76), "m": (1.65, 1.73, 1.81, 1.90)}
 SENSORS = [(512, 424, 366.0), (640, 480, 525.0)]  # Kinect v2; of the field of view of Kinect v1
 INTERVAL = 1.645
+# Between the ankles: feet slightly apart for girths; side by side for stature (ISO 8559-1 5.1.1), where the
+# ankles are a foot's breadth apart (ANSUR II: 0.10 m of men, 0.09 of women).
+FEET_APART_M, FEET_TOGETHER_M = 0.25, 0.10
 
 
 class Person:
@@ -55,7 +58,10 @@ class Person:
         return actor
 
     def truth(self):
-        return Tape(self.actor(35.0, 0.0), self.sex).measures()
+        """Each measure in the stance of its definition; files stand as their makers left them."""
+        out = Tape(self.actor(35.0, 0.0, FEET_APART_M), self.sex).measures()
+        together = Tape(self.actor(35.0, 0.0, FEET_TOGETHER_M), self.sex).measures()
+        return out | {"stature_m": together["stature_m"]}
 
     def record(self, folder, turns):
         """From the front, then from the side or once round on the spot, with small movements."""
