@@ -144,6 +144,28 @@ TEST(PopulationModel, RefusesWhatIsNoPopulationAndNamesTheFault) {
     EXPECT_THROW(PopulationModel::parse("[]"), Error);
 }
 
+TEST(PopulationModel, BrokenTextIsRefusedOrGivesNumbers) {
+    const std::string text = small_text();
+    const auto use = [](const std::string& broken) {
+        try {
+            const auto model = PopulationModel::parse(broken);
+            for (const Measurement& m : model.estimate({}, {{"stature_m", 1.7f, 0.0f, true}})) {
+                EXPECT_TRUE(std::isfinite(m.value)) << broken;
+                EXPECT_TRUE(std::isfinite(m.sigma)) << broken;
+            }
+        } catch (const Error&) {
+        }
+    };
+    for (size_t n = 0; n < text.size(); ++n) {
+        use(text.substr(0, n));
+        for (const char byte : {'9', '-', '.', 'e', '[', ',', '"', '}'}) {
+            std::string changed = text;
+            changed[n] = byte;
+            use(changed);
+        }
+    }
+}
+
 TEST(Adults, TellAllMeasuresFromHeightAndWeight) {
     // Means of ANSUR II near that stature and mass: chest 1.04, waist at the navel 0.92, hip 1.01 m.
     const auto man = adults().estimate(
