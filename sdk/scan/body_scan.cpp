@@ -17,6 +17,7 @@ constexpr int kFewestColumns = 3;
 // Above a head: longer without a reading than any sensor's outline is, and a background beyond.
 constexpr float kHidden_m = 0.02f, kHairReach_m = 0.15f;
 constexpr int kHidden_px = 3;
+constexpr uint32_t kViewsOfWay = 3;  // of a turn; more tell nothing new
 
 }  // namespace
 
@@ -27,7 +28,9 @@ void BodyScan::reset() {
     fit_.reset();
     residuals_.reset();
     profile_.reset();
-    turn_.reset();
+    for (TrunkView& view : turn_) wipe(view);
+    turn_.clear();
+    ring_.reset();
     outline_loss_.reset();
     wipe(sums_);
 }
@@ -59,15 +62,14 @@ float BodyScan::unseen_crown_m() const {
     return unseen > pixel_m ? unseen : 0.0f;
 }
 
-std::array<float, size_t(TurnBreadths::kLevels)> BodyScan::turned_girths_m() const {
-    // Below the hip joints two legs apart make the outline.
-    constexpr float kLowest = -0.08f;  // of the way from the hip joints to the neck
-    std::array<float, size_t(TurnBreadths::kLevels)> out;
-    for (int level = 0; level < TurnBreadths::kLevels; ++level)
-        out[size_t(level)] = TrunkProfile::along(level) < kLowest
-                                 ? std::nanf("")
-                                 : turn_.girth_m(level) + 2.0f * kPi * outline_loss_m();
-    return out;
+void BodyScan::keep_turning(const DepthImage& image, const Body& body) {
+    turn_.reserve(size_t(TurnRing::kWays) * kViewsOfWay);
+    const Vec3 ahead = fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
+    const int way = TurnRing::way_of(std::atan2(ahead.x, -ahead.z));
+    if (ring_.frames(way) >= kViewsOfWay) return;
+    ring_.add(way);
+    turn_.emplace_back();
+    look_at_trunk(image, uint8_t(body.id), fit_, turn_.back());
 }
 
 ViewKind BodyScan::add(const DepthImage& image, const Body& body) {

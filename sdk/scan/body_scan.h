@@ -13,7 +13,8 @@
 #include "scan/outline_loss.h"
 #include "scan/surface_residuals.h"
 #include "scan/trunk_profile.h"
-#include "scan/turn_breadths.h"
+#include "scan/turn_ring.h"
+#include "scan/turned_trunk.h"
 
 namespace vfit {
 
@@ -49,8 +50,8 @@ public:
     /// Fits the body of a person who turns round on the spot. Radians that they are turned by to their left;
     /// nothing where the fit is not good.
     std::optional<float> fit_turning(const DepthImage& image, const Body& body);
-    /// Keeps the frame that was fitted last, for the trunk's breadths alone.
-    void keep_turning(const DepthImage& image, const Body& body) { turn_.add(image, uint8_t(body.id), fit_); }
+    /// Keeps the frame that was fitted last, for the trunk alone. Does not allocate after the first.
+    void keep_turning(const DepthImage& image, const Body& body);
     /// Forgets the person.
     void reset();
 
@@ -58,8 +59,8 @@ public:
     /// VFIT_ERROR_STATE before the first frame that was kept. Without `side` as if nothing had been seen from
     /// there: estimators for the front alone have not learnt what it means.
     ScanFeatures features(bool side) const;
-    /// Girths of the trunk by its levels, metres, from its outline all around; NaN: not seen.
-    std::array<float, size_t(TurnBreadths::kLevels)> turned_girths_m() const;
+    /// What keep_turning() has kept. 0.15 s after a whole turn.
+    TurnedTrunk turned_trunk() const { return TurnedTrunk(turn_, outline_loss_m()); }
     /// The shape of all frames together.
     const FitShape& shape() const { return fit_.output().pose.shape; }
     const BodyFitOutput& fit() const { return fit_.output(); }
@@ -92,7 +93,8 @@ private:
     BodyFit fit_;
     SurfaceResiduals residuals_;
     TrunkProfile profile_;
-    TurnBreadths turn_;
+    std::vector<TrunkView> turn_;
+    TurnRing ring_;  // of turn_
     OutlineLoss outline_loss_;
     struct Sums {
         double crown_m = 0.0, gap_m = 0.0, bound_m = 0.0, distance_m = 0.0, pixel_m = 0.0;

@@ -140,7 +140,7 @@ std::vector<Measurement> PersonScan::measurements() const {
         desc_.measure_model->measure(features(), {with_side(), desc_.tight}, desc_.paper.sex);
     if (with_turn()) {
         const bool female = likely_sex() == VFIT_SEX_FEMALE;
-        combine_with_turn(out, seen_measures(std::nanf(""), body_->turned_girths_m(), female),
+        combine_with_turn(out, seen_measures(body_->turned_trunk(), female),
                           desc_.measure_model->turned(desc_.tight, female));
     }
     for (Measurement& m : out)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scan/section_girths.h"
+#include "scan/turned_trunk.h"
 
 namespace vfit {
 
@@ -12,7 +13,12 @@ struct SeenMeasures {
     float stature_m, chest_girth_m, waist_girth_m, hip_girth_m;
 };
 
-/// `female`: the waist's level differs by sex (measure/tape_landmarks.h).
+/// From the front and the side, where arms hide the chest. `female`: the waist's level differs by sex
+/// (anthropometry/tape_landmarks.h).
 SeenMeasures seen_measures(float crown_m, const SectionGirths& girths, bool female);
+
+/// From all around; no stature. `female`: the chest is that of the bust points; else the largest girth below
+/// the armpits.
+SeenMeasures seen_measures(const TurnedTrunk& trunk, bool female);
 
 }  // namespace vfit

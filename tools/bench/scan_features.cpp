@@ -74,8 +74,7 @@ Json rounded(const ScanFeatures& features) {
 Json number_or_null(float value) { return std::isnan(value) ? Json() : Json(value); }
 
 /// What the camera plainly sees, of a person of that sex.
-Json seen(float crown_m, const SectionGirths& girths, bool female) {
-    const SeenMeasures m = seen_measures(crown_m, girths, female);
+Json json_of(const SeenMeasures& m) {
     return {{"stature_m", number_or_null(m.stature_m)},
             {"chest_girth_m", number_or_null(m.chest_girth_m)},
             {"waist_girth_m", number_or_null(m.waist_girth_m)},
@@ -83,11 +82,11 @@ Json seen(float crown_m, const SectionGirths& girths, bool female) {
 }
 
 Json seen(const ScanFeatures& features, bool female) {
-    return seen(features[kCrownFeature], section_girths(features), female);
+    return json_of(seen_measures(features[kCrownFeature], section_girths(features), female));
 }
 
 Json seen_turning(const BodyScan& scan, bool female) {
-    return seen(std::nanf(""), scan.turned_girths_m(), female);
+    return json_of(seen_measures(scan.turned_trunk(), female));
 }
 
 /// Folders with a truth.json, by their names.

@@ -35,6 +35,7 @@ INTERVAL = 1.645
 # Between the ankles: feet slightly apart for girths; side by side for stature (ISO 8559-1 5.1.1), where the
 # ankles are a foot's breadth apart (ANSUR II: 0.10 m of men, 0.09 of women).
 FEET_APART_M, FEET_TOGETHER_M = 0.25, 0.10
+ARMS_OUT_DEG = 15.0  # hanging clear of the trunk; raised, they widen it below the armpits
 
 
 class Person:
@@ -59,8 +60,8 @@ class Person:
 
     def truth(self):
         """Each measure in the stance of its definition; files stand as their makers left them."""
-        out = Tape(self.actor(35.0, 0.0, FEET_APART_M), self.sex).measures()
-        together = Tape(self.actor(35.0, 0.0, FEET_TOGETHER_M), self.sex).measures()
+        out = Tape(self.actor(ARMS_OUT_DEG, 0.0, FEET_APART_M), self.sex).measures()
+        together = Tape(self.actor(ARMS_OUT_DEG, 0.0, FEET_TOGETHER_M), self.sex).measures()
         return out | {"stature_m": together["stature_m"]}
 
     def record(self, folder, turns):

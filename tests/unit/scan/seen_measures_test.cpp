@@ -59,19 +59,6 @@ TEST(SeenMeasures, AreTheGirthsOfWhatIsSeen) {
     EXPECT_TRUE(std::isnan(seen.chest_girth_m)) << "from the side the arms hide it";
 }
 
-TEST(SeenMeasures, AChestThatIsSeenIsTheLargestGirthBelowTheArmpits) {
-    SectionGirths girths;
-    for (int l = 0; l < TrunkProfile::kLevels; ++l) {  // widest at the chest
-        const float apart = TrunkProfile::along(l) - 0.58f;
-        girths[size_t(l)] = 1.0f - apart * apart;
-    }
-    const SeenMeasures seen = seen_measures(1.7f, girths, true);
-    EXPECT_NEAR(seen.chest_girth_m, 1.0f, 0.002f);
-    EXPECT_NEAR(seen.waist_girth_m, 1.0f - 0.252f * 0.252f, 0.002f);
-    girths.fill(std::nanf(""));
-    EXPECT_TRUE(std::isnan(seen_measures(1.7f, girths, true).chest_girth_m));
-}
-
 TEST(SeenMeasures, AreTakenAtTheirLevels) {
     // Wider downwards: the hip is the largest section, a woman's waist lies above a man's.
     const auto narrower_upwards = [](float share) {

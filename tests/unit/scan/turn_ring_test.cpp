@@ -1,0 +1,45 @@
+// Which ways a person has faced in a turn.
+#include "scan/turn_ring.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace vfit {
+namespace {
+
+TEST(TurnRing, CountsWaysToThePersonsLeft) {
+    EXPECT_EQ(TurnRing::way_of(0.1f), 0);
+    EXPECT_EQ(TurnRing::way_of(-0.1f), 0);
+    EXPECT_EQ(TurnRing::way_of(0.5f * kPi), 6);
+    EXPECT_EQ(TurnRing::way_of(-0.5f * kPi), 18);
+    EXPECT_EQ(TurnRing::way_of(kPi), 12);
+    EXPECT_EQ(TurnRing::way_of(-kPi), 12);
+    TurnRing ring;
+    for (int way = 0; way < TurnRing::kWays; ++way) {
+        EXPECT_NE(ring.seen(), TurnRing::kAll);
+        ring.add(way);
+    }
+    EXPECT_EQ(ring.seen(), TurnRing::kAll);
+    EXPECT_TRUE(ring.complete());
+    ring.reset();
+    EXPECT_EQ(ring.seen(), 0u);
+    EXPECT_FALSE(ring.complete());
+}
+
+TEST(TurnRing, IsCompleteWhereTheOppositeOfWhatIsMissingWasSeen) {
+    const auto without = [](std::initializer_list<int> missing) {
+        TurnRing ring;
+        for (int way = 0; way < TurnRing::kWays; ++way)
+            if (std::find(missing.begin(), missing.end(), way) == missing.end()) ring.add(way);
+        return ring.complete();
+    };
+    EXPECT_TRUE(without({3, 4}));
+    EXPECT_TRUE(without({0, 1, 2, 3}));
+    EXPECT_FALSE(without({0, 1, 2, 3, 4})) << "too many";
+    EXPECT_FALSE(without({5, 17})) << "opposite each other";
+}
+
+}  // namespace
+}  // namespace vfit
