@@ -603,7 +603,7 @@ enum {
                           * cloth are reckoned with */
     VFIT_SCAN_TURN = 4
 }; /* of FIT: after the other frames the person turns once round on the spot, arms held out: girths of the
-    * trunk from its outline all around are combined with those of the other views */
+    * trunk from its surface all around are combined with those of the other views */
 #define VFIT_TURN_WAYS 24u
 typedef struct vfit_scan_desc {
     uint32_t struct_size;

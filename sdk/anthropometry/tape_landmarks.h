@@ -22,6 +22,10 @@ float waist_share(vfit_sex sex);
 
 /// The navel, by the share at which it lies in people on the same way.
 float navel_height(const TapeMesh& body);
+float navel_share(vfit_sex sex);
+
+/// Where the rib arch lies on it; bust and a man's chest lie above.
+float rib_arch_share(vfit_sex sex);
 
 /// Level of the smallest girth between navel and rib arch. Stout bodies, which have no narrow waist, have it
 /// at one end.

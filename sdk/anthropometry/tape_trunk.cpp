@@ -31,8 +31,14 @@ float hip_joints_height(const TapeMesh& body) {
     return 0.5f * (body.joint(VFIT_JOINT_LEFT_HIP).y + body.joint(VFIT_JOINT_RIGHT_HIP).y);
 }
 
-float rib_arch_height(const TapeMesh& body) {
-    return glm::mix(waist_height(body), body.joint(VFIT_JOINT_NECK).y, kRibArchShare);
+float at_share(const TapeMesh& body, float share) {
+    return glm::mix(hip_joints_height(body), body.joint(VFIT_JOINT_NECK).y, share);
+}
+
+float rib_arch_height(const TapeMesh& body) { return at_share(body, rib_arch_share(body.body().sex)); }
+
+float by_sex(vfit_sex sex, float woman, float man) {
+    return sex == VFIT_SEX_FEMALE ? woman : sex == VFIT_SEX_MALE ? man : 0.5f * (woman + man);
 }
 
 float trunk_girth(const TapeMesh& body, float y) { return hull_perimeter(body.trunk(y).points()); }
@@ -86,23 +92,15 @@ float armpit_height(const TapeMesh& body) {
     return std::min(armpit_height(body, Side::kLeft), armpit_height(body, Side::kRight));
 }
 
-float waist_share(vfit_sex sex) {
-    return sex == VFIT_SEX_FEMALE ? kWaistShareWomen
-           : sex == VFIT_SEX_MALE ? kWaistShareMen
-                                  : 0.5f * (kWaistShareWomen + kWaistShareMen);
-}
+float waist_share(vfit_sex sex) { return by_sex(sex, kWaistShareWomen, kWaistShareMen); }
 
-float waist_height(const TapeMesh& body) {
-    return glm::mix(hip_joints_height(body), body.joint(VFIT_JOINT_NECK).y, waist_share(body.body().sex));
-}
+float navel_share(vfit_sex sex) { return by_sex(sex, kNavelShareWomen, kNavelShareMen); }
 
-float navel_height(const TapeMesh& body) {
-    const vfit_sex sex = body.body().sex;
-    const float share = sex == VFIT_SEX_FEMALE ? kNavelShareWomen
-                        : sex == VFIT_SEX_MALE ? kNavelShareMen
-                                               : 0.5f * (kNavelShareWomen + kNavelShareMen);
-    return glm::mix(hip_joints_height(body), body.joint(VFIT_JOINT_NECK).y, share);
-}
+float rib_arch_share(vfit_sex sex) { return std::lerp(waist_share(sex), 1.0f, kRibArchShare); }
+
+float waist_height(const TapeMesh& body) { return at_share(body, waist_share(body.body().sex)); }
+
+float navel_height(const TapeMesh& body) { return at_share(body, navel_share(body.body().sex)); }
 
 float minimum_waist_height(const TapeMesh& body) {
     return place_of_largest(navel_height(body), rib_arch_height(body),

@@ -14,7 +14,7 @@ namespace vfit {
 
 namespace {
 
-constexpr int kVersion = 6;
+constexpr int kVersion = 7;
 constexpr float kFarthest = 5.0f;  // deviations: what lies farther tells no more
 // What of the body itself lies farther out than nearly all grown-ups' do, a child's crown say, is guessed at:
 // linear rules do not reach there.
@@ -39,14 +39,6 @@ float number(const Json& value, const std::string& where) {
     const float v = value.is_number() ? value.get<float>() : std::nanf("");
     if (!std::isfinite(v)) fail(VFIT_ERROR_DATA, "measure model: ", where, " is not a number");
     return v;
-}
-
-/// NaN: not seen, or no measure that is.
-float seen_value(const SeenMeasures& seen, std::string_view key) {
-    return key == "stature_m"       ? seen.stature_m
-           : key == "waist_girth_m" ? seen.waist_girth_m
-           : key == "hip_girth_m"   ? seen.hip_girth_m
-                                    : std::nanf("");
 }
 
 /// Mean square: 1 among the scans that were learnt from, were all features seen.
@@ -172,13 +164,13 @@ MeasureModel MeasureModel::parse(std::string_view text) {
          {std::pair("any", &model.turned_[0]), {"tight", &model.turned_[1]}})
         for (const auto& [sex, girths] :
              {std::pair("male", &(*of_clothes)[0]), {"female", &(*of_clothes)[1]}})
-            for (const auto& [key, girth] : {std::pair("chest_girth_m", &girths->chest),
-                                             {"waist_girth_m", &girths->waist},
-                                             {"hip_girth_m", &girths->hip}}) {
-                const std::string what = std::string("turn, ") + clothes + ", " + sex + ", " + key;
-                const Json& one = field(field(field(turn, clothes, what), sex, what), key, what);
-                *girth = {number(field(one, "offset", what), what), number(field(one, "sigma", what), what)};
-                if (!(girth->sigma_m > 0.0f))
+            for (size_t k = 0; k < kTurnedKeys.size(); ++k) {
+                const std::string key(kTurnedKeys[k]),
+                    what = std::string("turn, ") + clothes + ", " + sex + ", " + key;
+                const Json& one = field(field(field(turn, clothes, what), sex, what), key.c_str(), what);
+                TurnedGirth& girth = (*girths)[k];
+                girth = {number(field(one, "offset", what), what), number(field(one, "sigma", what), what)};
+                if (!(girth.sigma_m > 0.0f))
                     fail(VFIT_ERROR_DATA, "measure model: ", what, ": sigma is not above 0");
             }
     return model;
@@ -238,7 +230,7 @@ std::vector<Measurement> MeasureModel::Part::measure(vfit_sex sex, const Seen& s
         float sigma = std::exp(log_sigma);
         if (row.stand_in) {
             const float likely = row.stand_in->likely.of(x),
-                        apart = seen_value(female ? seen.female : seen.male, row.key) - likely;
+                        apart = (female ? seen.female : seen.male).of(row.key) - likely;
             const bool is_seen = std::abs(apart) <= kMisread * row.stand_in->sigma;  // not where NaN
             value += likely + (is_seen ? row.stand_in->trust * apart : 0.0f);
             if (!is_seen) sigma = std::hypot(sigma, row.stand_in->sigma);

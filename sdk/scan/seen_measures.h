@@ -2,6 +2,9 @@
 // of their definitions.
 #pragma once
 
+#include <cmath>
+#include <string_view>
+
 #include "scan/section_girths.h"
 #include "scan/turned_trunk.h"
 
@@ -10,15 +13,20 @@ namespace vfit {
 /// Metres; NaN where not seen. Nearly right for everybody whatever their form; what they are off by as a
 /// whole (clothes, posture, the back's form) is left to the measure model.
 struct SeenMeasures {
-    float stature_m, chest_girth_m, waist_girth_m, hip_girth_m;
+    float stature_m = std::nanf(""), chest_girth_m = std::nanf(""), waist_girth_m = std::nanf(""),
+          hip_girth_m = std::nanf(""), waist_navel_girth_m = std::nanf(""),
+          waist_minimum_girth_m = std::nanf("");
+
+    /// NaN of other keys.
+    float of(std::string_view key) const;
 };
 
-/// From the front and the side, where arms hide the chest. `female`: the waist's level differs by sex
+/// From the front and the side, where arms hide the chest. `female`: levels differ by sex
 /// (anthropometry/tape_landmarks.h).
 SeenMeasures seen_measures(float crown_m, const SectionGirths& girths, bool female);
 
-/// From all around; no stature. `female`: the chest is that of the bust points; else the largest girth below
-/// the armpits.
+/// From all around; no stature. `female`: the chest is that of the bust points; else the largest girth up to
+/// where people's armpits lie.
 SeenMeasures seen_measures(const TurnedTrunk& trunk, bool female);
 
 }  // namespace vfit

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include "anthropometry/measurement.h"
@@ -15,9 +16,9 @@ namespace vfit {
 struct TurnedGirth {
     float offset_m = 0.0f, sigma_m = 0.0f;
 };
-struct TurnedGirths {
-    TurnedGirth chest, waist, hip;
-};
+inline constexpr std::array<std::string_view, 5> kTurnedKeys = {
+    "chest_girth_m", "waist_girth_m", "hip_girth_m", "waist_navel_girth_m", "waist_minimum_girth_m"};
+using TurnedGirths = std::array<TurnedGirth, kTurnedKeys.size()>;
 
 /// Each girth that the turn shows is combined with the measure in the list: the mean of least variance of two
 /// estimates whose errors correlate, as both hang on the fitted levels.

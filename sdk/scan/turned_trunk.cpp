@@ -12,26 +12,6 @@ namespace {
 constexpr float kStep = TrunkProfile::along(1) - TrunkProfile::along(0);
 constexpr float kLegsApart = -0.08f;  // below it two legs make the outline
 
-/// Half of the outlines from the front and from behind are hidden by an arm there.
-float armpits_of(const std::vector<TrunkView>& views) {
-    constexpr float kFrontal = 0.8f;  // cosine
-    constexpr float kLowest = 0.45f;
-    float before = 0.0f, share = std::nanf("");
-    for (int l = 0; l < TrunkView::kLevels; ++l) {
-        if (TrunkProfile::along(l) < kLowest) continue;
-        int outlines = 0, open = 0;
-        for (const TrunkView& view : views)
-            if (std::abs(std::cos(view.facing_rad)) > kFrontal)
-                for (const float reach : view.reach_m[size_t(l)]) ++outlines, open += !std::isnan(reach);
-        if (outlines == 0) return std::nanf("");
-        const float here = float(open) / float(outlines);
-        share = TrunkProfile::along(l);
-        if (here < 0.5f) return before > 0.5f ? share - kStep * (0.5f - here) / (before - here) : share;
-        before = here;
-    }
-    return share;
-}
-
 float girth_of(const TrunkSection& section) {
     constexpr int kWidestGap = TrunkSection::kDirections / 4;
     std::vector<Vec2> outline;
@@ -48,8 +28,7 @@ float girth_of(const TrunkSection& section) {
 
 }  // namespace
 
-TurnedTrunk::TurnedTrunk(const std::vector<TrunkView>& views, float outline_loss_m)
-    : armpits_(armpits_of(views)) {
+TurnedTrunk::TurnedTrunk(const std::vector<TrunkView>& views, float outline_loss_m) {
     fuse_views(views, outline_loss_m, sections_);
     for (int l = 0; l < kLevels; ++l)
         girths_m_[size_t(l)] =
@@ -75,6 +54,15 @@ float TurnedTrunk::largest_girth_m(float low, float high) const {
     const float rest = (high - TrunkProfile::along(int(last))) / kStep,
                 goes_on = girths_m_[last] + rest * (girths_m_[last] - girths_m_[last - 1]);
     return std::fmax(out, std::fmin(girth_m(high), goes_on));
+}
+
+float TurnedTrunk::smallest_girth_m(float low, float high) const {
+    if (!(low < high)) return std::nanf("");
+    float out = std::fmin(girth_m(low), girth_m(high));
+    for (int l = 0; l < kLevels; ++l)
+        if (low < TrunkProfile::along(l) && TrunkProfile::along(l) < high)
+            out = std::fmin(out, girths_m_[size_t(l)]);
+    return out;
 }
 
 float TurnedTrunk::bust(float low, float high) const {

@@ -19,10 +19,9 @@ public:
     /// Of a section's convex hull, which a taut tape follows; without arms. NaN where too little is seen, and
     /// outside the levels.
     float girth_m(float share) const;
-    /// The largest between two shares.
+    /// The largest between two shares, the smallest.
     float largest_girth_m(float low, float high) const;
-    /// Where the arms part from the trunk; NaN without a view from the front or from behind.
-    float armpits() const { return armpits_; }
+    float smallest_girth_m(float low, float high) const;
     /// Between two shares, where the front stands out before the straight line from one to the other; NaN
     /// where nothing is seen.
     float bust(float low, float high) const;
@@ -30,7 +29,6 @@ public:
 private:
     TrunkSections sections_;
     std::array<float, size_t(kLevels)> girths_m_;
-    float armpits_;
 };
 
 }  // namespace vfit

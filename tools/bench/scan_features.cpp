@@ -78,7 +78,9 @@ Json json_of(const SeenMeasures& m) {
     return {{"stature_m", number_or_null(m.stature_m)},
             {"chest_girth_m", number_or_null(m.chest_girth_m)},
             {"waist_girth_m", number_or_null(m.waist_girth_m)},
-            {"hip_girth_m", number_or_null(m.hip_girth_m)}};
+            {"hip_girth_m", number_or_null(m.hip_girth_m)},
+            {"waist_navel_girth_m", number_or_null(m.waist_navel_girth_m)},
+            {"waist_minimum_girth_m", number_or_null(m.waist_minimum_girth_m)}};
 }
 
 Json seen(const ScanFeatures& features, bool female) {

@@ -24,7 +24,7 @@ from motion import Actor  # noqa: E402
 from recording import FPS, Recording  # noqa: E402
 from renderer import Camera, room_depth, see, sense  # noqa: E402
 
-MEASURES = ("stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m")
+MEASURES = ("stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m", "waist_minimum_girth_m")
 FRONT_FRAMES, SIDE_FRAMES, STILL_FRAMES = 45, 45, 20  # the tracker sees the room first
 TURN_FRAMES = 160  # once round
 TURNED = 5 / 6  # of the ways to face: then a turn is complete
@@ -138,7 +138,7 @@ def report(title, rows):
         off, inside = np.abs(error), np.abs(error) <= INTERVAL * sigma
         confidence = 1.96 * off.std() / np.sqrt(len(off))
         print(
-            f"  {key:16}{off.mean():7.1f} +-{confidence:5.1f}{error.mean():8.1f}{100 * inside.mean():6.0f} %"
+            f"  {key:22}{off.mean():7.1f} +-{confidence:5.1f}{error.mean():8.1f}{100 * inside.mean():6.0f} %"
         )
         figures[key] = {"mean_mm": off.mean(), "bias_mm": error.mean(), "inside": float(inside.mean())}
     return figures

@@ -8,8 +8,8 @@ from motion import Motion
 ARM_BONES = ("Arm", "ForeArm", "Hand")
 OF_ARM = 0.5  # of a vertex's weight: from there on it is the arm's
 RIB_ARCH = 0.2  # of the way from the waist to the neck
-# The waist, of the way from the hip joints to the neck, as sdk/anthropometry/tape_trunk.cpp has it.
-WAIST = {"f": 0.328, "m": 0.308}
+# Waist and navel, of the way from the hip joints to the neck, as sdk/anthropometry/tape_trunk.cpp has them.
+WAIST, NAVEL = {"f": 0.328, "m": 0.308}, {"f": 0.245, "m": 0.252}
 BELOW_HIPS = 0.12  # of the way from the hip joints to the neck, below them: the hip's lowest level
 TAPE_HALF_WIDTH_M = 0.01
 STEP_M = 0.002
@@ -106,7 +106,9 @@ class Tape:
         self._find_levels(character, upper)
 
     def _find_levels(self, character, upper_arms):
-        self.waist_m = self.hips[1] + WAIST[self.sex] * (self.neck[1] - self.hips[1])
+        trunk_m = self.neck[1] - self.hips[1]
+        self.waist_m = self.hips[1] + WAIST[self.sex] * trunk_m
+        self.navel_m = self.hips[1] + NAVEL[self.sex] * trunk_m
         self.arch_m = self.waist_m + RIB_ARCH * (self.neck[1] - self.waist_m)
         edges = np.concatenate([character.faces[:, [0, 1]], character.faces[:, [1, 2]]])
         borders = edges[self.of_arm[edges].sum(1) == 1]
@@ -125,6 +127,10 @@ class Tape:
 
     def _largest(self, levels):
         return float(levels[int(np.argmax([self.girth(y) for y in levels]))])
+
+    def narrowest_height(self):
+        levels = np.arange(self.navel_m, self.arch_m, STEP_M)
+        return float(levels[int(np.argmin([self.girth(y) for y in levels]))])
 
     def chest_height(self):
         """Of a woman where the bust stands out most, of a man where the girth is largest."""
@@ -146,7 +152,12 @@ class Tape:
     def measures(self):
         y = self.skin[:, 1]
         out = {"stature_m": float(y.max() - y.min())}
-        levels = {"chest": self.chest_height(), "waist": self.waist_m, "hip": self.hip_height()}
+        levels = {
+            "chest": self.chest_height(),
+            "waist": self.waist_m,
+            "waist_minimum": self.narrowest_height(),
+            "hip": self.hip_height(),
+        }
         for name, level in levels.items():
             across, ahead = np.ptp(self.section(level), axis=0)
             out[f"{name}_girth_m"] = self.girth(level)

@@ -68,7 +68,13 @@ SEEN_FROM_FRONT = {
     "biacromial_breadth_m",
 }
 NEVER_SEEN = {"body_mass_kg"}
-SEEN_AS_IT_IS = ("stature_m", "waist_girth_m", "hip_girth_m")  # sdk/scan/seen_measures.h
+SEEN_AS_IT_IS = (  # sdk/scan/seen_measures.h
+    "stature_m",
+    "waist_girth_m",
+    "hip_girth_m",
+    "waist_navel_girth_m",
+    "waist_minimum_girth_m",
+)
 # In girths that are seen, against what generated people make likely: nothing of it serves those best, all of
 # it bodies of other makers.
 TRUST = 0.75
@@ -452,7 +458,7 @@ def main():
     arguments = parser.parse_args()
     rows = read(arguments.scans)
     keys = sorted({key for r in rows for key in r["truth"] if not key.startswith("navel_")})
-    model = {"format": "vfit-measure-model", "version": 6, "unit": UNIT, "unit_of_places": UNIT_OF_PLACES}
+    model = {"format": "vfit-measure-model", "version": 7, "unit": UNIT, "unit_of_places": UNIT_OF_PLACES}
     for kind in KINDS:
         model[kind] = train(rows, kind, keys)
     with open(arguments.out, "w") as file:

@@ -11,7 +11,13 @@ import json
 import numpy as np
 from train import read, tight
 
-GIRTHS = ("chest_girth_m", "waist_girth_m", "hip_girth_m")
+GIRTHS = (
+    "chest_girth_m",
+    "waist_girth_m",
+    "hip_girth_m",
+    "waist_navel_girth_m",
+    "waist_minimum_girth_m",
+)
 SEXES = {"male": "m", "female": "f"}
 
 
@@ -35,7 +41,7 @@ def learn(rows):
                 sigma = float(np.quantile(np.abs(off - offset), 0.9)) / 1.645
                 out[clothes][sex][girth] = {"offset": round(offset, 4), "sigma": round(sigma, 4)}
                 print(
-                    f"{clothes:6}{sex:8}{girth:15}{len(off):5} scans: offset {1000 * offset:6.1f}, "
+                    f"{clothes:6}{sex:8}{girth:22}{len(off):5} scans: offset {1000 * offset:6.1f}, "
                     f"sigma {1000 * sigma:5.1f} mm"
                 )
     return out
@@ -52,7 +58,6 @@ def main():
     with open(arguments.model) as file:
         model = json.load(file)
     model["turn"] = learn(rows)
-    model["version"] = 6
     with open(arguments.model, "w") as file:
         file.write(json.dumps(model, separators=(",", ":")) + "\n")
 

@@ -59,10 +59,11 @@ Json small_model() {
          {{"stature_m", measure(1.6f, std::log(0.01f))}, {"underbust_girth_m", measure(0.8f, 0.0f)}}},
         {"male", {{"stature_m", measure(1.7f, std::log(0.01f))}}}};
     const Json girth = {{"offset", 0.01f}, {"sigma", 0.02f}};
-    const Json girths = {{"chest_girth_m", girth}, {"waist_girth_m", girth}, {"hip_girth_m", girth}};
+    Json girths;
+    for (const std::string_view key : kTurnedKeys) girths[std::string(key)] = girth;
     const Json turned = {{"male", girths}, {"female", girths}};
     return {{"format", "vfit-measure-model"},
-            {"version", 6},
+            {"version", 7},
             {"unit", 1.0f},
             {"unit_of_places", 1.0f},
             {"turn", {{"any", turned}, {"tight", turned}}},

@@ -135,7 +135,6 @@ TEST(TurnedTrunk, NothingSeenIsNotGuessed) {
     const TurnedTrunk none({}, 0.0f);
     EXPECT_TRUE(std::isnan(none.girth_m(0.3f)));
     EXPECT_TRUE(std::isnan(none.largest_girth_m(0.0f, 0.5f)));
-    EXPECT_TRUE(std::isnan(none.armpits()));
     EXPECT_TRUE(std::isnan(none.bust(0.45f, 0.75f)));
     std::vector<TrunkView> blind = turn_of(form);
     for (TrunkView& view : blind) {
@@ -146,18 +145,6 @@ TEST(TurnedTrunk, NothingSeenIsNotGuessed) {
     std::vector<TrunkView> front = turn_of(form);
     front.resize(4);
     EXPECT_TRUE(std::isnan(TurnedTrunk(front, 0.0f).girth_m(0.3f))) << "the back is open";
-}
-
-TEST(TurnedTrunk, ArmpitsAreWhereArmsHideTheOutline) {
-    std::vector<TrunkView> views = turn_of({});
-    for (TrunkView& view : views)
-        for (int l = 18; l < TrunkView::kLevels; ++l) view.reach_m[size_t(l)].fill(std::nanf(""));
-    EXPECT_NEAR(TurnedTrunk(views, 0.0f).armpits(),
-                0.5f * (TrunkProfile::along(17) + TrunkProfile::along(18)), 1e-4f);
-    for (TrunkView& view : views)
-        for (auto& level : view.reach_m) level.fill(std::nanf(""));
-    EXPECT_NEAR(TurnedTrunk(views, 0.0f).armpits(), TrunkProfile::along(15), 1e-4f)
-        << "not below the rib arch";
 }
 
 TEST(TurnedTrunk, TheBustIsWhereTheFrontStandsOut) {
@@ -174,12 +161,12 @@ TEST(TurnedTrunk, AMansChestIsTheLargestGirthBelowTheArmpits) {
     Form form;
     form.grows = 0.3f;
     std::vector<TrunkView> views = turn_of(form);
-    for (TrunkView& view : views) {
-        for (int l = 18; l < TrunkView::kLevels; ++l) view.reach_m[size_t(l)].fill(std::nanf(""));
-        for (float& towards : view.towards_m[18]) towards += 0.05f;  // arms that are taken for the trunk
-    }
-    const float below = form.girth_m(17), above = form.girth_m(18);
-    EXPECT_NEAR(seen_measures(TurnedTrunk(views, 0.0f), false).chest_girth_m, 0.5f * (below + above), 0.006f);
+    for (TrunkView& view : views)
+        for (float& towards : view.towards_m[20]) towards += 0.05f;  // arms that are taken for the trunk
+    const float along =
+        (0.678f - TrunkProfile::along(19)) / (TrunkProfile::along(20) - TrunkProfile::along(19));
+    EXPECT_NEAR(seen_measures(TurnedTrunk(views, 0.0f), false).chest_girth_m,
+                std::lerp(form.girth_m(19), form.girth_m(20), along), 0.006f);
 }
 
 /// A person who turns once round in steps of 15 degrees, or only begins to.

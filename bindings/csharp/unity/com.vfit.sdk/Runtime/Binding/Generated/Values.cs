@@ -291,7 +291,7 @@ namespace Vfit
         /// are reckoned with</summary>
         Tight = 2,
         /// <summary>of FIT: after the other frames the person turns once round on the spot, arms held out:
-        /// girths of the trunk from its outline all around are combined with those of the other
+        /// girths of the trunk from its surface all around are combined with those of the other
         /// views</summary>
         Turn = 4,
     }
