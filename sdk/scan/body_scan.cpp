@@ -47,8 +47,11 @@ bool BodyScan::run_fit(const DepthImage& image, const Body& body) {
 
 std::optional<float> BodyScan::fit_turning(const DepthImage& image, const Body& body) {
     if (!run_fit(image, body)) return std::nullopt;
-    const Vec3 ahead = fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
-    return std::atan2(ahead.x, -ahead.z);
+    return facing(image.camera);
+}
+
+float BodyScan::facing(const Camera& camera) const {
+    return facing_rad(camera, fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1));
 }
 
 float BodyScan::outline_loss_m() const {
@@ -64,8 +67,7 @@ float BodyScan::unseen_crown_m() const {
 
 void BodyScan::keep_turning(const DepthImage& image, const Body& body) {
     turn_.reserve(size_t(TurnRing::kWays) * kViewsOfWay);
-    const Vec3 ahead = fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
-    const int way = TurnRing::way_of(std::atan2(ahead.x, -ahead.z));
+    const int way = TurnRing::way_of(facing(image.camera));
     if (ring_.frames(way) >= kViewsOfWay) return;
     ring_.add(way);
     turn_.emplace_back();
@@ -75,15 +77,15 @@ void BodyScan::keep_turning(const DepthImage& image, const Body& body) {
 ViewKind BodyScan::add(const DepthImage& image, const Body& body) {
     if (!run_fit(image, body)) return ViewKind::kOther;
     const auto user = uint8_t(body.id);
-    const Vec3 ahead = fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
-    const ViewKind view = view_kind_of(ahead);
+    const float faces = facing(image.camera);
+    const ViewKind view = view_kind_of(faces);
     if (view == ViewKind::kOther) return view;
     residuals_.add(image, user, fit_);
     profile_.add(image, user, fit_, view);
     outline_loss_.add(image, user);
     ++sums_.frames;
     sums_.distance_m += double(fit().pose.hips.z);
-    const double turned = double(turned_rad(ahead)) - (view == ViewKind::kSide ? 0.5 * double(kPi) : 0.0);
+    const double turned = double(std::abs(faces)) - (view == ViewKind::kSide ? 0.5 * double(kPi) : 0.0);
     sums_.turned_rad[size_t(view)] += turned;
     sums_.turned_squared[size_t(view)] += turned * turned;
     sums_.pixel_m += double(fit().pose.hips.z / std::sqrt(image.camera.fx * image.camera.fy));

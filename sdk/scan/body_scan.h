@@ -76,6 +76,8 @@ public:
 private:
     /// False where the body does not fit.
     bool run_fit(const DepthImage& image, const Body& body);
+    /// How far the fitted body is turned to its left from facing the camera, radians.
+    float facing(const Camera& camera) const;
     /// What the sensor loses of an outline, metres at the person.
     float outline_loss_m() const;
     struct Top {

@@ -246,9 +246,9 @@ float MeasureModel::female_probability(const ScanFeatures& features, ScanKind ki
     return 1.0f / (1.0f + std::exp(-one.female.of(one.standardised(features))));
 }
 
-std::vector<Measurement> MeasureModel::measure(const ScanFeatures& features, ScanKind kind,
-                                               vfit_sex sex) const {
-    std::vector<Measurement> out = measure_anybody(features, kind, sex);
+std::vector<Measurement> MeasureModel::measure(const ScanFeatures& features, ScanKind kind, vfit_sex sex,
+                                               const SeenOfTurn* turn) const {
+    std::vector<Measurement> out = measure_anybody(features, kind, sex, turn);
     for (Measurement& m : out)
         if (m.key == "stature_m" && !std::isnan(features[kCrownFeature])) {
             const float apart = std::max(0.0f, std::abs(m.value - features[kCrownFeature]) - kCrownApart_m);
@@ -258,13 +258,19 @@ std::vector<Measurement> MeasureModel::measure(const ScanFeatures& features, Sca
 }
 
 std::vector<Measurement> MeasureModel::measure_anybody(const ScanFeatures& features, ScanKind kind,
-                                                       vfit_sex sex) const {
+                                                       vfit_sex sex, const SeenOfTurn* turn) const {
     const Part& learnt = part(kind);
     const Seen seen = learnt.look(features);
-    if (sex == VFIT_SEX_FEMALE) return learnt.measure(VFIT_SEX_FEMALE, seen);
-    const std::vector<Measurement> male = learnt.measure(VFIT_SEX_MALE, seen);
-    if (sex == VFIT_SEX_MALE) return male;
-    const std::vector<Measurement> female = learnt.measure(VFIT_SEX_FEMALE, seen);
+    const auto of_sex = [&](vfit_sex one) {
+        const bool woman = one == VFIT_SEX_FEMALE;
+        std::vector<Measurement> list = learnt.measure(one, seen);
+        if (turn)
+            combine_with_turn(list, woman ? turn->female : turn->male, turned_[kind.tight][woman],
+                              seen.doubt);
+        return list;
+    };
+    if (sex != VFIT_SEX_UNKNOWN) return of_sex(sex);
+    const std::vector<Measurement> male = of_sex(VFIT_SEX_MALE), female = of_sex(VFIT_SEX_FEMALE);
     const float p = female_probability(features, kind);
     std::vector<Measurement> out;
     for (const Measurement& m : male) {

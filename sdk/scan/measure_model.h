@@ -34,11 +34,11 @@ public:
 
     /// In the order of measure_keys(). Where the sex is unknown the measures of both are mixed by how likely
     /// each is. Of a person unlike those that it has learnt from deviations are wider.
-    std::vector<Measurement> measure(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const;
+    /// `turn`: what a turn on the spot showed as well; null: none.
+    std::vector<Measurement> measure(const ScanFeatures& features, ScanKind kind, vfit_sex sex,
+                                     const SeenOfTurn* turn = nullptr) const;
     /// How likely it is a woman whom the features are of.
     float female_probability(const ScanFeatures& features, ScanKind kind) const;
-    /// What girths of a turn are off by.
-    const TurnedGirths& turned(bool tight, bool female) const { return turned_[tight][female]; }
 
 private:
     /// base + weights . x, of standardised features x.
@@ -91,7 +91,8 @@ private:
     };
     MeasureModel() = default;
 
-    std::vector<Measurement> measure_anybody(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const;
+    std::vector<Measurement> measure_anybody(const ScanFeatures& features, ScanKind kind, vfit_sex sex,
+                                             const SeenOfTurn* turn) const;
     const Part& part(ScanKind kind) const { return parts_[(kind.side ? 1u : 0u) + (kind.tight ? 2u : 0u)]; }
 
     std::array<Part, 4> parts_;

@@ -1,6 +1,5 @@
 #include "scan/person_scan.h"
 
-#include <bit>
 #include <cmath>
 
 #include "core/clock.h"
@@ -19,13 +18,18 @@ constexpr float kArmsOut_m = 0.14f;
 constexpr float kFastestTurn = 2.6f;   // radians a second; at a pace of 8 s a turn small steps reach 1.6
 constexpr float kSpeedOver_s = 0.2f;   // a fitted body's direction wavers by some degrees
 constexpr uint32_t kFramesOfWay = 15;  // of a turn: the person stands still
-constexpr int kFewestWays = TurnRing::kWays / 2;  // outlines from behind are those from the front
 
 /// By the joints, before the body is fitted.
-ViewKind view_of(const Body& body) {
+ViewKind view_of(const Camera& camera, const Body& body) {
     const Vec3 left = body.at(VFIT_JOINT_LEFT_SHOULDER) - body.at(VFIT_JOINT_RIGHT_SHOULDER) +
                       body.at(VFIT_JOINT_LEFT_HIP) - body.at(VFIT_JOINT_RIGHT_HIP);
-    return view_kind_of(Vec3(left.z, 0.0f, -left.x), kJointsSlack_rad);
+    return view_kind_of(facing_rad(camera, glm::cross(left, camera.floor_normal)), kJointsSlack_rad);
+}
+
+template <typename T>
+void forget(std::optional<T>& value) {
+    if (value) wipe(*value);
+    value.reset();
 }
 
 bool arms_out(const Body& body) {
@@ -63,8 +67,7 @@ void PersonScan::reset() {
     if (body_) body_->reset();
     side_frames_ = more_side_frames_ = 0;
     ring_.reset();
-    if (before_turn_) wipe(*before_turn_);
-    before_turn_.reset();
+    forget(before_turn_), forget(turned_);
     turned_rad_ = 0.0f, turned_ns_ = 0, fast_ = false;
 }
 
@@ -103,27 +106,26 @@ vfit_guidance PersonScan::turn(const ScanFrame& frame) {
     if (ring_.frames(way) >= kFramesOfWay) return VFIT_GUIDANCE_TURN_ROUND;
     body_->keep_turning(frame.image, *frame.body);
     ring_.add(way);
+    if (ring_.complete()) turned_.emplace(body_->turned_trunk());
     return VFIT_GUIDANCE_NONE;
 }
 
 vfit_guidance PersonScan::fit(const ScanFrame& frame) {
     if (desc_.turn && paper_.complete() && side_frames_ >= side_frames_wanted()) return turn(frame);
-    const ViewKind seen = view_of(*frame.body);
+    const ViewKind seen = view_of(frame.image.camera, *frame.body);
     const bool front = seen == ViewKind::kFront, side = seen == ViewKind::kSide;
     if (paper_.complete() ? !side : !front && !side)
         return paper_.complete() ? VFIT_GUIDANCE_TURN_SIDEWAYS : VFIT_GUIDANCE_FACE_CAMERA;
     if (side && side_frames_ >= side_frames_wanted()) return VFIT_GUIDANCE_FACE_CAMERA;
     if (front && !arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
     if (body_->add(frame.image, *frame.body) != seen) return VFIT_GUIDANCE_HOLD_STILL;
-    before_turn_.reset();  // extend() asked for more after a turn
+    forget(before_turn_);  // extend() asked for more after a turn
     if (front)
         paper_.take(frame);
     else
         ++side_frames_;
     return VFIT_GUIDANCE_NONE;
 }
-
-bool PersonScan::with_turn() const { return std::popcount(turn_seen()) >= kFewestWays; }
 
 InferredSex PersonScan::inferred_sex() const {
     if (desc_.paper.sex != VFIT_SEX_UNKNOWN) return {desc_.paper.sex, 1.0f};
@@ -136,13 +138,8 @@ InferredSex PersonScan::inferred_sex() const {
 std::vector<Measurement> PersonScan::measurements() const {
     if (!body_) return paper_.measurements();
     if (frames_taken() == 0) fail(VFIT_ERROR_STATE, "scan: no frame from the front has been taken yet");
-    std::vector<Measurement> out =
-        desc_.measure_model->measure(features(), {with_side(), desc_.tight}, desc_.paper.sex);
-    if (with_turn()) {
-        const bool female = likely_sex() == VFIT_SEX_FEMALE;
-        combine_with_turn(out, seen_measures(body_->turned_trunk(), female),
-                          desc_.measure_model->turned(desc_.tight, female));
-    }
+    std::vector<Measurement> out = desc_.measure_model->measure(
+        features(), {with_side(), desc_.tight}, desc_.paper.sex, turned_ ? &*turned_ : nullptr);
     for (Measurement& m : out)
         if (m.key == "stature_m") {
             m.sigma = std::hypot(m.sigma, body_->crown_sigma_m());

@@ -69,7 +69,6 @@ public:
 private:
     static constexpr uint32_t kFewestSideFrames = 5;  // fewer are not worth the other estimator
     bool with_side() const { return side_frames_ >= kFewestSideFrames; }
-    bool with_turn() const;
     ScanFeatures features() const { return before_turn_ ? *before_turn_ : body_->features(with_side()); }
     /// What is wrong with the frame for the body fit; it is kept where nothing is.
     vfit_guidance fit(const ScanFrame& frame);
@@ -83,8 +82,9 @@ private:
     // Of the views before the turn: the body goes on being fitted to all of it, and measures have not learnt
     // what that does to its shape.
     std::optional<ScanFeatures> before_turn_;
-    float turned_rad_ = 0.0f;  // where the speed of the turn is counted from
-    int64_t turned_ns_ = 0;    // 0: nowhere yet
+    std::optional<SeenOfTurn> turned_;  // of a whole turn
+    float turned_rad_ = 0.0f;           // where the speed of the turn is counted from
+    int64_t turned_ns_ = 0;             // 0: nowhere yet
     bool fast_ = false;
 };
 

@@ -29,4 +29,12 @@ SeenMeasures seen_measures(float crown_m, const SectionGirths& girths, bool fema
 /// where people's armpits lie.
 SeenMeasures seen_measures(const TurnedTrunk& trunk, bool female);
 
+/// By the levels of each sex.
+struct SeenOfTurn {
+    explicit SeenOfTurn(const TurnedTrunk& trunk)
+        : male(seen_measures(trunk, false)), female(seen_measures(trunk, true)) {}
+
+    SeenMeasures male, female;
+};
+
 }  // namespace vfit

@@ -111,7 +111,8 @@ float SurfaceResiduals::roughness_m(ViewKind view, int region, const FitShape& s
 void SurfaceResiduals::add(const DepthImage& image, uint8_t user, const BodyFit& fit) {
     const FitBody& body = fit.body();
     const FitShape& shape = fit.output().pose.shape;
-    const ViewKind view = view_kind_of(body.bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1));
+    const ViewKind view =
+        view_kind_of(facing_rad(image.camera, body.bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1)));
     if (view == ViewKind::kOther) return;
     ++frames_[size_t(view)];
     auto& facing = sums(view, Seen::kFacing);

@@ -91,17 +91,17 @@ public:
 private:
     /// All of the trunk's readings, each at the level where it lies in space.
     void see_surface(float rise) {
-        std::array<std::array<uint16_t, TrunkView::kColumns>, TrunkView::kLevels> counts{};
+        std::array<std::array<uint32_t, TrunkView::kColumns>, TrunkView::kLevels> counts{};
         std::array<std::array<float, TrunkView::kColumns>, TrunkView::kLevels> sums{};
         int left = int(camera_.width), right = 0, top = int(camera_.height), bottom = 0;
         for (const float share : {TrunkProfile::along(0), TrunkProfile::along(TrunkView::kLevels - 1)})
-            for (const float way : {-1.0f, 1.0f}) {
+            for (const Vec2 way : {Vec2(-1.0f, -1.0f), {-1.0f, 1.0f}, {1.0f, -1.0f}, {1.0f, 1.0f}}) {
                 const Vec3 corner =
-                    hips_ + share * spine_ + way * kWidest_m * across_ + kDeepest_m * towards_;
+                    hips_ + share * spine_ + way.x * kWidest_m * across_ + way.y * kDeepest_m * towards_;
                 if (corner.z < 0.3f) return;
                 const Vec2 p = camera_.project(corner);
-                left = std::min(left, int(p.x)), right = std::max(right, int(p.x) + 1);
-                top = std::min(top, int(p.y) - 8), bottom = std::max(bottom, int(p.y) + 8);
+                left = std::min(left, int(p.x) - 1), right = std::max(right, int(p.x) + 2);
+                top = std::min(top, int(p.y) - 1), bottom = std::max(bottom, int(p.y) + 2);
             }
         left = std::max(left, 0), top = std::max(top, 0);
         right = std::min(right, int(camera_.width) - 1), bottom = std::min(bottom, int(camera_.height) - 1);
@@ -150,7 +150,7 @@ private:
         int last = 0, trunk = -1;  // pixels: the person's, the trunk's
         float z = 0.0f;            // of the trunk's
         float before = 0.0f;       // of the pixel before
-        bool behind = false;       // what goes on beyond the trunk lies farther than it can
+        bool behind = false;       // what goes on there lies farther away than a trunk can
         int i = 0;
         for (; i <= reach_px && !(behind && i - trunk > kFlying + 1); ++i) {
             const Vec2 p = line.at + way * float(i) * line.across;
@@ -167,6 +167,10 @@ private:
         }
         // Sections are seen edge-on where their outline is, and that is about as far away as the spine.
         if (i > reach_px || trunk < 0 || z < centre_z - kEdgeDepth_m) return std::nullopt;
+        const Vec2 beyond = line.at + way * float(last + 1) * line.across;
+        if (beyond.x < 0.0f || beyond.y < 0.0f || beyond.x > float(camera_.width) - 1.0f ||
+            beyond.y > float(camera_.height) - 1.0f)
+            return std::nullopt;  // cut by the image's border
         const bool whole = last - trunk <= kFlying;
         if (!whole && !behind) return std::nullopt;  // an arm before it
         const Vec2 edge = line.at + way * (float(whole ? last : trunk) + 0.5f) * line.across;

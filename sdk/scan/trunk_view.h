@@ -26,13 +26,14 @@ struct TrunkView {
     float facing_rad = 0.0f;
     /// Towards the camera; NaN where nothing of the trunk is seen.
     std::array<std::array<float, kColumns>, kLevels> towards_m{};
-    /// How far the line of sight along the outline passes from the spine; NaN where an arm hides it.
+    /// How far the line of sight along the outline passes from the spine; NaN where an arm or the image's
+    /// border hides it, and where the spine itself has no reading.
     std::array<std::array<float, kSides>, kLevels> reach_m{};
-    /// From the spine's line of sight to that of the outline, radians.
+    /// From the spine's line of sight to that of the outline, radians, where reach_m is seen.
     std::array<std::array<float, kSides>, kLevels> aside_rad{};
 };
 
-/// Of the frame that was fitted last. Does not allocate.
+/// Of the frame that was fitted last, with a user map. Does not allocate.
 void look_at_trunk(const DepthImage& image, uint8_t user, const BodyFit& fit, TrunkView& out);
 
 }  // namespace vfit

@@ -12,10 +12,10 @@ constexpr float kCorrelation = 0.2f;  // of the two errors: 0 to 0.4 on generate
 }  // namespace
 
 void combine_with_turn(std::vector<Measurement>& measures, const SeenMeasures& turned,
-                       const TurnedGirths& errors) {
+                       const TurnedGirths& errors, float doubt) {
     for (size_t k = 0; k < kTurnedKeys.size(); ++k) {
         const float girth = turned.of(kTurnedKeys[k]);
-        const TurnedGirth& error = errors[k];
+        const TurnedGirth error{errors[k].offset_m, doubt * errors[k].sigma_m};
         for (Measurement& m : measures) {
             if (m.key != kTurnedKeys[k] || std::isnan(girth) || !(error.sigma_m > 0.0f && m.sigma > 0.0f))
                 continue;

@@ -11,7 +11,7 @@
 
 namespace vfit {
 
-/// What a girth read off a turn's outline is off by: clothes, posture, and where body fitting puts the
+/// What a girth read off a turn's closed surface is off by: clothes, posture, and where body fitting puts the
 /// levels.
 struct TurnedGirth {
     float offset_m = 0.0f, sigma_m = 0.0f;
@@ -21,8 +21,9 @@ inline constexpr std::array<std::string_view, 5> kTurnedKeys = {
 using TurnedGirths = std::array<TurnedGirth, kTurnedKeys.size()>;
 
 /// Each girth that the turn shows is combined with the measure in the list: the mean of least variance of two
-/// estimates whose errors correlate, as both hang on the fitted levels.
+/// estimates whose errors correlate, as both hang on the fitted levels. `doubt`: how many times wider the
+/// errors are than those that were learnt.
 void combine_with_turn(std::vector<Measurement>& measures, const SeenMeasures& turned,
-                       const TurnedGirths& errors);
+                       const TurnedGirths& errors, float doubt);
 
 }  // namespace vfit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/wipe.h"
 #include "geometry/section.h"
 
 namespace vfit {
@@ -34,6 +35,8 @@ TurnedTrunk::TurnedTrunk(const std::vector<TrunkView>& views, float outline_loss
         girths_m_[size_t(l)] =
             TrunkProfile::along(l) < kLegsApart ? std::nanf("") : girth_of(sections_[size_t(l)]);
 }
+
+TurnedTrunk::~TurnedTrunk() { wipe(sections_), wipe(girths_m_); }
 
 float TurnedTrunk::girth_m(float share) const {
     const float place = (share - TrunkProfile::along(0)) / kStep;
@@ -81,7 +84,7 @@ float TurnedTrunk::bust(float low, float high) const {
     const size_t top = size_t(std::max_element(fronts.begin(), fronts.end(),
                                                [](const Vec2& a, const Vec2& b) { return a.y < b.y; }) -
                               fronts.begin());
-    if (top == 0 || top + 1 == fronts.size()) return fronts[top].x;
+    if (top == 0 || top + 1 == fronts.size()) return std::nanf("");
     // The parabola through it and its neighbours.
     const float below = fronts[top - 1].y, above = fronts[top + 1].y,
                 bend = below - 2.0f * fronts[top].y + above;

@@ -15,15 +15,19 @@ public:
 
     /// `outline_loss_m`: what the sensor loses of every outline. 0.15 s for 72 views.
     TurnedTrunk(const std::vector<TrunkView>& views, float outline_loss_m);
+    /// Overwrites the body's form.
+    ~TurnedTrunk();
+    TurnedTrunk(const TurnedTrunk&) = default;
+    TurnedTrunk& operator=(const TurnedTrunk&) = default;
 
     /// Of a section's convex hull, which a taut tape follows; without arms. NaN where too little is seen, and
     /// outside the levels.
     float girth_m(float share) const;
-    /// The largest between two shares, the smallest.
+    /// The largest or the smallest of the levels between two shares.
     float largest_girth_m(float low, float high) const;
     float smallest_girth_m(float low, float high) const;
     /// Between two shares, where the front stands out before the straight line from one to the other; NaN
-    /// where nothing is seen.
+    /// where nothing stands out or is seen.
     float bust(float low, float high) const;
 
 private:

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "core/wipe.h"
 #include "math/types.h"
 
 namespace vfit {
@@ -10,7 +12,7 @@ namespace vfit {
 namespace {
 
 constexpr int kRounds = 12;
-constexpr int kStill = 2;  // rounds in which the views stay where body fitting puts them
+constexpr int kStill = 3;  // of them; the views stay where body fitting puts them
 constexpr float kStart_m = 0.14f;
 // What a reading and an outline are off by; a reading's error lies along its line of sight.
 constexpr float kReading_m = 0.006f, kAcross_m = 0.003f, kOutline_m = 0.004f;
@@ -82,10 +84,11 @@ struct Touch {
         for (size_t d = 0; d < points.size(); ++d) {
             const Vec2& p = points[d];
             if (const float reach = glm::dot(p, way); reach > support)
-                support = reach, aside = p.x * way.y - p.y * way.x, at = d;
+                support = reach, aside = p.x * way.y - p.y * way.x, point = p, at = d;
         }
     }
     float support = -1.0f, aside = 0.0f;
+    Vec2 point{0.0f};
     size_t at = 0;
 };
 
@@ -140,6 +143,14 @@ public:
         for (TrunkSection& section : sections_) section.radii_m.fill(kStart_m);
     }
 
+    /// Overwrites what it knows of the body.
+    ~Fusion() {
+        for (Seen& s : seen_) wipe(std::span(s.readings));
+        wipe(std::span(cells_)), wipe(points_);
+    }
+    Fusion(const Fusion&) = delete;
+    Fusion& operator=(const Fusion&) = delete;
+
     void run() {
         for (int round = 0; round < kRounds; ++round) {
             const bool shaped = round > 0;
@@ -153,7 +164,7 @@ public:
                 see_surface(i, shaped);
                 if (shaped) see_outline(i);
             }
-            if (round > kStill) move();
+            if (round >= kStill) move();
             for (size_t l = 0; l < sections_.size(); ++l) shape(l, round + 1 == kRounds);
         }
     }
@@ -227,9 +238,14 @@ private:
                 const Touch touch(points_[size_t(l)], square - s.facing());
                 const Vec2 way(std::sin(square), std::cos(square));
                 const float off = reach + outline_loss_m_ + glm::dot(shift, way) - touch.support;
-                const float weight = kOutlineWeight * trust(off) / (kOutline_m * kOutline_m);
+                // Along the radius, as the surface's.
+                const float upright = std::max(kGrazing, touch.support / glm::length(touch.point));
+                const float weight =
+                    kOutlineWeight * trust(off) * upright * upright / (kOutline_m * kOutline_m);
                 add(view, size_t(l) * TrunkSection::kDirections + touch.at,
-                    {way.x, way.y, touch.aside, way.x * lean, way.y * lean}, off, weight);
+                    {way.x / upright, way.y / upright, touch.aside / upright, way.x * lean / upright,
+                     way.y * lean / upright},
+                    off / upright, weight);
             }
         }
     }

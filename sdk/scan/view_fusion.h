@@ -9,8 +9,8 @@
 
 namespace vfit {
 
-/// A level section about the spine: radii in equal steps of direction, from straight ahead on to the side
-/// that is at the camera's right when the person faces it. NaN where no view shows it.
+/// A level section about the spine: radii in equal steps of direction, from straight ahead on to the
+/// person's left. NaN where no view shows it.
 struct TrunkSection {
     static constexpr int kDirections = 48;
     static constexpr float kStep_rad = 2.0f * kPi / float(kDirections);

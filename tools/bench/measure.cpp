@@ -139,7 +139,7 @@ public:
     vfit_scan fit() const { return fit_.get(); }
     vfit_scan told_tight() const { return told_.get(); }
     vfit_scan paper() const { return paper_.get(); }
-    double last_frame_ms() const { return double(state_.compute_ms); }
+    double last_frame_ms() const { return last_frame_ms_; }
 
 private:
     void play(const std::string& uri, bool front) {
@@ -151,6 +151,8 @@ private:
             if (bodies.empty()) continue;
             const uint32_t body = bodies.front().body_id;
             result_ = check(vfit_scan_add(fit_.get(), tracked.get(), body, &state_));
+            // A scan that is complete looks no further.
+            if (state_.compute_ms > 0.0f) last_frame_ms_ = double(state_.compute_ms);
             check(vfit_scan_add(told_.get(), tracked.get(), body, nullptr));
             if (front) check(vfit_scan_add(paper_.get(), tracked.get(), body, nullptr));
         }
@@ -162,6 +164,7 @@ private:
     Tracker tracker_;
     Scan fit_, told_, paper_;
     vfit_scan_state state_ = vfit_scan_state_init();
+    double last_frame_ms_ = 0.0;
     vfit_result result_ = VFIT_NOT_READY;  // of the last frame
 };
 
@@ -196,7 +199,10 @@ void scan(const PersonOfPopulation& person, const ScanScene& scene, uint32_t see
         ++set.failed;
         return;
     }
-    const auto both = measurements_of(one.fit()), told = measurements_of(one.told_tight());
+    const Timer all_round;
+    const auto both = measurements_of(one.fit());
+    set.all_round_ms.add(all_round.ms() + one.last_frame_ms());
+    const auto told = measurements_of(one.told_tight());
     add(both, person.measures, set.both);
     add(told, person.measures, set.both_told);
     if (set.is_varied())

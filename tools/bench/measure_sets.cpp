@@ -153,6 +153,8 @@ void judge_varied(const MeasureSet& set, Targets& targets) {
         targets.judge(set.name + ": 90 % intervals, least of a group of 30" + uncovered, min_covered,
                       Aim::at_least, 0.80, 3);
     }
+    targets.judge(set.name + ": beyond the capture" + views + ", median", set.all_round_ms.quantile(0.5),
+                  Aim::at_most, set.turn ? 1000.0 : 150.0, 0, " ms");
     const SizeLetters& l = set.tight() ? set.letters_told : set.letters;
     const double n = std::max(1u, l.people);
     targets.judge(set.name + ": size letter exact" + between(confidence(l.exact, n)), l.exact / n,

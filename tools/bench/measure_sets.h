@@ -74,7 +74,8 @@ struct MeasureSet {
     std::map<std::string, MeasureTallies>
         groups{};  // of real sets: front and side, told tight where clothes are
     SizeLetters letters{}, letters_told{};
-    Samples last_ms{};  // what is left to do when the capture ends
+    Samples last_ms{};       // what is left to do when the capture of the front ends
+    Samples all_round_ms{};  // of the side or the turn
     uint32_t scans = 0, failed = 0;
     bool tight() const { return dress == Dress::kTight; }
 };

@@ -73,7 +73,6 @@ Json rounded(const ScanFeatures& features) {
 
 Json number_or_null(float value) { return std::isnan(value) ? Json() : Json(value); }
 
-/// What the camera plainly sees, of a person of that sex.
 Json json_of(const SeenMeasures& m) {
     return {{"stature_m", number_or_null(m.stature_m)},
             {"chest_girth_m", number_or_null(m.chest_girth_m)},

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Learns what girths read off a turn's outline are off by, from scans of generated people (vfit-bench
+"""Learns what girths read off a turn's closed surface are off by, from scans of generated people (vfit-bench
 scan-features --turn), and writes it into the measure model: by clothes and sex a median, and a deviation of
 which 1.645 hold 90 % of errors. Needs numpy alone.
 """

@@ -125,9 +125,10 @@ TEST_F(PersonScanTest, MeasuresAPersonOfItsOwnSpace) {
         EXPECT_GT(one.sigma, 0.0f) << one.key;
         EXPECT_LT(one.sigma, 0.06f * one.value) << one.key;
         if (one.key == "body_mass_kg") {
-            // A body is about as dense as water. The scan tells the mass of people with such girths.
-            EXPECT_LT(one.sigma, 0.08f * one.value);
-            EXPECT_NEAR(one.value, 1010.0f * volume_m3(avatar_.measuring_mesh()), 3.0f * one.sigma);
+            // A body is about as dense as water, with air in its lungs less: the scan tells the mass of
+            // people with such girths, and that is up to a tenth from a mesh's volume, give or take a sigma.
+            EXPECT_NEAR(one.value, 1010.0f * volume_m3(avatar_.measuring_mesh()),
+                        std::min(3.0f * one.sigma, 0.12f * one.value));
             continue;
         }
         const Measurement* taped = find(truth, one.key);

@@ -152,6 +152,8 @@ TEST(TurnedTrunk, TheBustIsWhereTheFrontStandsOut) {
     form.bust = 0.04f, form.bust_at = 0.61f;
     const TurnedTrunk trunk(turn_of(form), 0.0f);
     EXPECT_NEAR(trunk.bust(0.45f, 0.75f), 0.61f, 0.012f);
+    form.bust = -0.03f;
+    EXPECT_TRUE(std::isnan(TurnedTrunk(turn_of(form), 0.0f).bust(0.45f, 0.75f))) << "nothing stands out";
     const SeenMeasures woman = seen_measures(trunk, true);
     EXPECT_NEAR(woman.chest_girth_m, trunk.girth_m(trunk.bust(0.45f, 0.75f)), 1e-5f);
     EXPECT_TRUE(std::isnan(woman.stature_m));
@@ -169,8 +171,8 @@ TEST(TurnedTrunk, AMansChestIsTheLargestGirthBelowTheArmpits) {
                 std::lerp(form.girth_m(19), form.girth_m(20), along), 0.006f);
 }
 
-/// A person who turns once round in steps of 15 degrees, or only begins to.
-TurnedTrunk turned(Avatar& avatar, float arms_rad, bool whole = true) {
+/// A person who turns once round in steps of 15 degrees to that side, 1 their left, or takes some of them.
+TurnedTrunk turned(Avatar& avatar, float arms_rad, float side = 1.0f, int steps = kWays) {
     BodyScan scan(fit_model());
     int64_t time_ns = 0;
     const auto add = [&](float turned_rad, const auto& take) {
@@ -183,9 +185,10 @@ TurnedTrunk turned(Avatar& avatar, float arms_rad, bool whole = true) {
     };
     for (int i = 0; i < 4; ++i)
         add(0.0f, [&](const auto& image, const Body& body) { scan.add(image, body); });
-    for (int way = 0; way < (whole ? 24 : 4); ++way)
-        add(float(way) * kPi / 12.0f, [&](const auto& image, const Body& body) {
-            if (scan.fit_turning(image, body)) scan.keep_turning(image, body);
+    for (int way = 0; way < steps; ++way)
+        add(side * float(way) * kPi / 12.0f, [&](const auto& image, const Body& body) {
+            ASSERT_TRUE(scan.fit_turning(image, body)) << way;
+            scan.keep_turning(image, body);
         });
     return scan.turned_trunk();
 }
@@ -208,9 +211,16 @@ TEST(TurnedTrunk, ArmsAreNoPartOfIt) {
         EXPECT_NEAR(low.girth_m(share), wide.girth_m(share), 0.015f) << share;
 }
 
+TEST(TurnedTrunk, ATurnToEitherSideTellsTheSame) {
+    Avatar avatar(body_model(), {}, shape_of({2.0f}), Vec2(1.0f));
+    const TurnedTrunk left = turned(avatar, 0.75f), right = turned(avatar, 0.75f, -1.0f);
+    for (const float share : {0.05f, 0.2f, 0.33f, 0.45f, 0.6f})
+        EXPECT_NEAR(left.girth_m(share), right.girth_m(share), 0.01f) << share;
+}
+
 TEST(TurnedTrunk, APartOfATurnIsNotTakenForAll) {
     Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
-    EXPECT_TRUE(std::isnan(turned(avatar, 0.75f, false).girth_m(0.33f)));
+    EXPECT_TRUE(std::isnan(turned(avatar, 0.75f, 1.0f, 4).girth_m(0.33f)));
 }
 
 }  // namespace
