@@ -22,7 +22,7 @@ TEST(TurnedMeasures, AreCombinedByTheirErrors) {
                                      {"stature_m", 1.7f, 0.01f, true}};
     combine_with_turn(list, seen(&SeenMeasures::waist_girth_m, 0.83f), kAllUsual, 1.0f);
     EXPECT_NEAR(list[0].value, 0.82f, 1e-5f) << "half way to 0.83 and its offset";
-    EXPECT_NEAR(list[0].sigma, 0.02f * std::sqrt(0.6f), 1e-5f) << "a fifth of the errors is in common";
+    EXPECT_NEAR(list[0].sigma, 0.02f * std::sqrt(0.75f), 1e-5f) << "half of the errors is in common";
     EXPECT_TRUE(list[0].observed);
     EXPECT_EQ(list[1].value, 1.7f);
 }
