@@ -92,8 +92,22 @@ class TapeTest(unittest.TestCase):
         self.assertAlmostEqual(told["waist_girth_m"], ellipse(*half_axes(waist)), delta=0.004)
         self.assertAlmostEqual(told["hip_girth_m"], ellipse(*half_axes(0.95)), delta=0.004)
         self.assertAlmostEqual(told["chest_girth_m"], ellipse(*half_axes(1.3)), delta=0.004)
+        self.assertAlmostEqual(told["waist_minimum_girth_m"], told["waist_girth_m"], delta=0.002)
         self.assertAlmostEqual(told["waist_breadth_m"], 2 * half_axes(waist)[0], delta=0.004)
         self.assertAlmostEqual(told["chest_depth_m"], 2 * half_axes(1.3)[1], delta=0.004)
+
+    def test_the_narrowest_waist_is_sought_between_navel_and_rib_arch(self):
+        narrow = 0.95 + 0.40 * 0.55  # above the waist's level, below the rib arch
+
+        def half_axes(y):
+            scale = 1.0 - 0.3 * np.exp(-(((y - narrow) / 0.03) ** 2)) - 0.5 * (y < 1.0)  # legs are thinner
+            return 0.18 * scale, 0.12 * scale
+
+        tape = Tape(Column(half_axes), "m")
+        self.assertAlmostEqual(tape.narrowest_height(), narrow, delta=0.004)
+        told = tape.measures()
+        self.assertAlmostEqual(told["waist_minimum_girth_m"], ellipse(*half_axes(narrow)), delta=0.004)
+        self.assertGreater(told["waist_girth_m"], told["waist_minimum_girth_m"] + 0.03)
 
 
 class PostureTest(unittest.TestCase):
