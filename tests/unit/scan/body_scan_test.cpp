@@ -261,5 +261,27 @@ TEST(BodyScan, DoesNotAllocateAfterItsFirstFrame) {
     EXPECT_EQ(test::allocations - before, 0u);
 }
 
+TEST(BodyScan, ATurnDoesNotAllocateAfterItsFirstFrame) {
+    Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
+    std::vector<FitScene> turn;
+    for (int way = 0; way < 6; ++way) {
+        Stance stance;
+        stance.turned_rad = float(way) * kPi / 12.0f, stance.arms_rad = 0.75f;
+        turn.push_back(standing_person(avatar, stance));
+    }
+    BodyScan scan(fit_model());
+    int64_t time_ns = 0;
+    const auto take = [&](const FitScene& scene) {
+        Body body = scene.joints;
+        body.time_ns = time_ns += 33333333;
+        ASSERT_TRUE(scan.fit_turning(scene.image(), body));
+        scan.keep_turning(scene.image(), body);
+    };
+    take(turn.front());
+    const uint64_t before = test::allocations;
+    for (const FitScene& scene : turn) take(scene);
+    EXPECT_EQ(test::allocations - before, 0u);
+}
+
 }  // namespace
 }  // namespace vfit
