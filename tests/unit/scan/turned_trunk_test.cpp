@@ -40,6 +40,7 @@ struct Form {
 /// What body fitting is off by in a view.
 struct Slip {
     float across = 0.0f, towards = 0.0f, turned = 0.0f;
+    float leans_across = 0.0f, leans_towards = 0.0f;  // from hips to neck
 };
 
 TrunkView view_of(const Form& form, float facing, const Slip& slip = {}) {
@@ -47,6 +48,9 @@ TrunkView view_of(const Form& form, float facing, const Slip& slip = {}) {
     view.facing_rad = facing;
     const float c = std::cos(facing + slip.turned), s = std::sin(facing + slip.turned);
     for (int l = 0; l < TrunkView::kLevels; ++l) {
+        const float lean = TrunkProfile::along(l) - 0.3f,
+                    slip_across = slip.across + lean * slip.leans_across,
+                    slip_towards = slip.towards + lean * slip.leans_towards;
         std::vector<Vec2> points = form.section(l);  // across and towards the camera
         for (Vec2& p : points) p = {p.x * c + p.y * s, p.y * c - p.x * s};
         auto& towards = view.towards_m[size_t(l)];
@@ -56,13 +60,13 @@ TrunkView view_of(const Form& form, float facing, const Slip& slip = {}) {
             const Vec2 a = points[i], b = points[(i + 1) % points.size()];
             left = std::min(left, a.x), right = std::max(right, a.x);
             for (int column = 0; column < TrunkView::kColumns; ++column) {
-                const float across = TrunkView::across_m(column) + slip.across;
+                const float across = TrunkView::across_m(column) + slip_across;
                 if ((a.x > across) == (b.x > across)) continue;
-                const float here = std::lerp(a.y, b.y, (across - a.x) / (b.x - a.x)) - slip.towards;
+                const float here = std::lerp(a.y, b.y, (across - a.x) / (b.x - a.x)) - slip_towards;
                 towards[size_t(column)] = std::fmax(towards[size_t(column)], here);
             }
         }
-        view.reach_m[size_t(l)] = {-left + slip.across, right - slip.across};
+        view.reach_m[size_t(l)] = {-left + slip_across, right - slip_across};
         view.aside_rad[size_t(l)].fill(0.0f);
     }
     return view;
@@ -76,7 +80,8 @@ std::vector<TrunkView> turn_of(const Form& form, float slips = 1.0f) {
     const auto within = [&](float range) { return slips * range * random.between(-1.0f, 1.0f); };
     for (int way = 0; way < kWays; ++way)
         views.push_back(
-            view_of(form, 2.0f * kPi * float(way) / kWays, {within(0.015f), within(0.015f), within(0.04f)}));
+            view_of(form, 2.0f * kPi * float(way) / kWays,
+                    {within(0.015f), within(0.015f), within(0.04f), within(0.03f), within(0.03f)}));
     return views;
 }
 
@@ -107,6 +112,15 @@ TEST(TurnedTrunk, WhatTheSensorLosesOfOutlinesIsAdded) {
                 wrong = TurnedTrunk(views, 0.0f).girth_m(TrunkProfile::along(10));
     EXPECT_NEAR(right, form.girth_m(10), 0.004f);
     EXPECT_LT(wrong, right - 0.004f);
+}
+
+TEST(TurnedTrunk, OutlinesAloneMeetTheHull) {
+    Form form;
+    form.half_breadth = 0.20f, form.before = 0.10f, form.behind = 0.10f;  // a view that is turned is seen
+    std::vector<TrunkView> views = turn_of(form);
+    for (TrunkView& view : views)
+        for (auto& level : view.towards_m) level.fill(std::nanf(""));
+    EXPECT_NEAR(TurnedTrunk(views, 0.0f).girth_m(TrunkProfile::along(10)), form.girth_m(10), 0.01f);
 }
 
 TEST(TurnedTrunk, StrayReadingsHardlyCount) {
