@@ -31,7 +31,7 @@ TEST(ViewKind, FacingIsCountedToThePersonsLeftHoweverTheCameraIsRolled) {
     }
 }
 
-TEST(ViewKind, TiltTurnsNobody) {
+TEST(ViewKind, TiltTurnsNoPerson) {
     Camera camera;
     set_floor(camera, 2.0f, 0.5f, 0.0f, VFIT_FLOOR_GIVEN);
     const Vec3 towards = Vec3(0, 0, -1) + glm::dot(Vec3(0, 0, 1), camera.floor_normal) * camera.floor_normal;
