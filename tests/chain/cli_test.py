@@ -208,6 +208,13 @@ class Contract(unittest.TestCase):
             stature[method] = result["measurements"]["stature_m"]["value"]
         self.assertGreater(abs(stature["paper"] - stature["paper-as-printed"]), 0.01)
 
+    def test_a_turn_that_did_not_happen_is_told(self):
+        standing = VIRTUAL.replace("demo", "scan")
+        asked = document(self, "measure", standing, "--turn", "--frames", "5", "--json")
+        self.assertIn("no whole turn", asked["note"])
+        self.assertLess(asked["turned"], 0.5)
+        self.assertNotIn("note", document(self, "measure", standing, "--side-frames", "0", "--json"))
+
     def test_the_fitted_body_measures_girths_with_intervals(self):
         result = document(
             self,

@@ -84,6 +84,7 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
         run.frames_taken = state.frames_taken;
         run.side_frames_taken = state.side_frames_taken;
         run.turn_seen = state.turn_seen;
+        run.complete = result == VFIT_OK;
         progress.at(run.frames_taken, run.frames_wanted);
         if (result == VFIT_OK || ++seen == kPatience * state.frames_wanted) break;
     }

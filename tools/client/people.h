@@ -18,6 +18,7 @@ struct ScanRun {
     Scan scan;
     uint32_t frames_taken = 0, frames_wanted = 0, side_frames_taken = 0;
     uint32_t turn_seen = 0;  // vfit_scan_state
+    bool complete = false;   // all that was asked for has been seen
     uint32_t body_id = 0;    // who was scanned: the first that a frame was taken of
     vfit_scan_method method = VFIT_SCAN_DEFAULT;
     std::string note;                  // why another method than the default measured; empty: it did not
