@@ -8,8 +8,8 @@ namespace vfit {
 
 namespace {
 
-// Definitions after ISO 8559-1:2017 (item numbers where one stands); girths are taut tapes: the convex hull
-// of the section. New keys are appended: the index is part of the ABI.
+// Definitions that follow ISO 8559-1:2017 name its clause, the others follow none. Girths are taut tapes: the
+// convex hull of the section. New keys are appended: the index is part of the ABI.
 //
 // Plausible bounds, rounded outwards. Smallest: a fifth of the smallest of the 6,068 adults of ANSUR II
 // (stature 1.41 m, chest girth 0.70 m); a newborn has a third of that stature (0.45 m) and two fifths of
@@ -25,15 +25,18 @@ constexpr MeasureKey kKeys[] = {
      0.07f, 1.6f},
     {"biacromial_breadth_m", "breadth between the outermost points of the two acromia", 0.05f, 0.75f},
     {"chest_girth_m",
-     "men: largest horizontal girth of the chest (5.3.4); women: over the bust points; no arms", 0.14f, 3.7f},
-    {"underbust_girth_m", "horizontal girth directly below the breasts", 0.14f, 3.7f},
+     "women: over the bust points (5.3.4 bust girth); men: largest horizontal girth of the chest below the "
+     "axillae (at them 5.3.6); no arms",
+     0.14f, 3.7f},
+    {"underbust_girth_m", "horizontal girth directly below the breasts (5.3.8)", 0.14f, 3.7f},
     {"waist_girth_m", "horizontal girth midway between lowest rib and iliac crest (5.3.10)", 0.12f, 3.5f},
-    {"hip_girth_m", "largest horizontal girth over the buttocks (5.3.13)", 0.14f, 3.4f},
-    {"neck_girth_m", "girth just below the larynx, square to the neck", 0.05f, 1.3f},
-    {"thigh_girth_m", "largest girth of the thigh, square to it", 0.08f, 2.2f},
-    {"upper_arm_girth_m", "largest girth of the hanging upper arm, square to it", 0.04f, 1.25f},
-    {"inside_leg_m", "crotch to floor, feet slightly apart", 0.12f, 1.55f},
-    {"arm_length_m", "acromion over the slightly bent elbow to the wrist bone", 0.08f, 1.1f},
+    {"hip_girth_m",
+     "largest horizontal girth over the buttocks (5.3.14; at their greatest prominence 5.3.13)", 0.14f, 3.4f},
+    {"neck_girth_m", "girth just below the larynx, square to the neck (5.3.2)", 0.05f, 1.3f},
+    {"thigh_girth_m", "largest girth of the thigh, square to it (5.3.20, there horizontal)", 0.08f, 2.2f},
+    {"upper_arm_girth_m", "largest girth of the hanging upper arm, square to it (5.3.16)", 0.04f, 1.25f},
+    {"inside_leg_m", "crotch to floor, feet slightly apart (5.1.15)", 0.12f, 1.55f},
+    {"arm_length_m", "acromion over the slightly bent elbow to the wrist bone (5.7.8)", 0.08f, 1.1f},
     {"torso_height_m", "from the NECK joint to the PELVIS joint", 0.08f, 1.0f},
     {"hip_height_m", "height of the hip joints above the floor", 0.13f, 1.65f},
     {"hip_breadth_m", "horizontal extent from side to side of the section of hip_girth_m", 0.05f, 1.2f},

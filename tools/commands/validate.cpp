@@ -130,8 +130,15 @@ std::vector<Case> cases_of_table(const fs::path& file) {
 /// Recordings that hold their person's measures, in the recording or one folder above.
 std::vector<Case> cases_of_folder(const fs::path& folder) {
     std::vector<Case> cases;
+    constexpr std::string_view kTexel = ".scan.xml";
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.path().filename() != "camera.json") continue;
+        const std::string name = entry.path().filename().string();
+        if (name.size() >= kTexel.size() &&
+            name.compare(name.size() - kTexel.size(), kTexel.size(), kTexel) == 0)
+            throw Failure(folder.string() +
+                          ": holds scans of a Texel scanner: make recordings of them with " +
+                          "python3 tools/import_scans " + folder.string() + " OUT");
+        if (name != "camera.json") continue;
         const fs::path recording = entry.path().parent_path(), above = recording.parent_path();
         Case one;
         one.scan = recording.string();

@@ -21,6 +21,24 @@ TEST(MeasureKeys, AreUniqueNameTheirUnitAndAreDefinedOnOneLine) {
     }
 }
 
+TEST(MeasureKeys, NameTheClauseOfTheStandardThatTheyFollow) {
+    for (const auto& [key, clause] : {std::pair("stature_m", "5.1.1"),
+                                      {"inside_leg_m", "5.1.15"},
+                                      {"neck_girth_m", "5.3.2"},
+                                      {"chest_girth_m", "5.3.4"},
+                                      {"underbust_girth_m", "5.3.8"},
+                                      {"waist_girth_m", "5.3.10"},
+                                      {"hip_girth_m", "5.3.14"},
+                                      {"upper_arm_girth_m", "5.3.16"},
+                                      {"thigh_girth_m", "5.3.20"},
+                                      {"arm_length_m", "5.7.8"}}) {
+        const int index = measure_index(key);
+        ASSERT_GE(index, 0) << key;
+        const std::string text = measure_keys()[static_cast<size_t>(index)].text;
+        EXPECT_NE(text.find(clause), std::string::npos) << text;
+    }
+}
+
 TEST(MeasureKeys, AreFoundByName) {
     for (int i = 0; i < static_cast<int>(measure_keys().size()); ++i)
         EXPECT_EQ(measure_index(measure_keys()[static_cast<size_t>(i)].key), i);
