@@ -64,7 +64,7 @@ class Column:
 
     def joints(self, _):
         at = {f"{side}_HIP": np.array([x, 0.95, 0]) for side, x in (("LEFT", 0.1), ("RIGHT", -0.1))}
-        return {**at, "NECK": np.array([0, 1.5, 0.0])}
+        return {**at, "NECK": np.array([0, 1.4, 0.0])}
 
 
 def ellipse(a, b):
@@ -79,7 +79,8 @@ class TapeTest(unittest.TestCase):
         self.assertEqual(hull_perimeter(notched[:2]), 0.0)
 
     def test_girths_are_taken_at_their_levels(self):
-        waist = 0.95 + 0.308 * 0.55
+        hips, neck = 0.513 * 1.8, 0.864 * 1.8  # trochanterion and cervicale of men; not the rig's joints
+        waist, of_rig = hips + 0.308 * (neck - hips), 0.95 + 0.308 * 0.45
 
         def half_axes(y):  # narrowest at the waist, widest at the hip joints, and deeper at the chest
             scale = (
@@ -90,6 +91,8 @@ class TapeTest(unittest.TestCase):
         told = Tape(Column(half_axes), "m").measures()
         self.assertAlmostEqual(told["stature_m"], 1.8, 6)
         self.assertAlmostEqual(told["waist_girth_m"], ellipse(*half_axes(waist)), delta=0.004)
+        self.assertAlmostEqual(told["waist_of_rig_girth_m"], ellipse(*half_axes(of_rig)), delta=0.004)
+        self.assertGreater(told["waist_of_rig_girth_m"], told["waist_girth_m"])
         self.assertAlmostEqual(told["hip_girth_m"], ellipse(*half_axes(0.95)), delta=0.004)
         self.assertAlmostEqual(told["chest_girth_m"], ellipse(*half_axes(1.3)), delta=0.004)
         self.assertAlmostEqual(told["waist_minimum_girth_m"], told["waist_girth_m"], delta=0.002)
@@ -97,7 +100,7 @@ class TapeTest(unittest.TestCase):
         self.assertAlmostEqual(told["chest_depth_m"], 2 * half_axes(1.3)[1], delta=0.004)
 
     def test_the_narrowest_waist_is_sought_between_navel_and_rib_arch(self):
-        narrow = 0.95 + 0.40 * 0.55  # above the waist's level, below the rib arch
+        narrow = 1.18  # above the waist's level, 1.12, below the rib arch, 1.21
 
         def half_axes(y):
             scale = 1.0 - 0.3 * np.exp(-(((y - narrow) / 0.03) ** 2)) - 0.5 * (y < 1.0)  # legs are thinner

@@ -7,10 +7,14 @@ from motion import Motion
 
 ARM_BONES = ("Arm", "ForeArm", "Hand")
 OF_ARM = 0.5  # of a vertex's weight: from there on it is the arm's
+# Mean heights of real people's landmarks as fractions of stature (ANSUR II). A rig's joints are no landmarks:
+# MB-Lab's hip joints lie at 0.53 to 0.54 and its neck joints at 0.81 to 0.83, as it suits its skin.
+TROCHANTERION, CERVICALE = {"f": 0.519, "m": 0.513}, {"f": 0.857, "m": 0.864}
 RIB_ARCH = 0.2  # of the way from the waist to the neck
-# Waist and navel, of the way from the hip joints to the neck, as sdk/anthropometry/tape_trunk.cpp has them.
+# Waist and navel, of the way from trochanterion to cervicale, as sdk/anthropometry/tape_trunk.cpp has them:
+# the mean of tenth rib and iliac crest, and the navel, of the same survey.
 WAIST, NAVEL = {"f": 0.328, "m": 0.308}, {"f": 0.245, "m": 0.252}
-BELOW_HIPS = 0.12  # of the way from the hip joints to the neck, below them: the hip's lowest level
+BELOW_HIPS = 0.12  # of that way, below trochanterion: the hip's lowest level
 TAPE_HALF_WIDTH_M = 0.01
 STEP_M = 0.002
 
@@ -100,16 +104,19 @@ class Tape:
         trunk = character.faces[self.of_arm[character.faces].sum(1) < 2]
         self.edges = np.concatenate([trunk[:, [0, 1]], trunk[:, [1, 2]], trunk[:, [2, 0]]])
         joints = actor.joints(0)
-        self.hips = 0.5 * (joints["LEFT_HIP"] + joints["RIGHT_HIP"])
-        self.neck = joints["NECK"]
-        upper = [character.node_of[side + "Arm"] for side in SIDES]
-        self._find_levels(character, upper)
+        hips_m, neck_m = 0.5 * (joints["LEFT_HIP"] + joints["RIGHT_HIP"])[1], joints["NECK"][1]
+        self.middle = joints["NECK"][0]  # between left and right
+        self.waist_of_rig_m = hips_m + WAIST[sex] * (neck_m - hips_m)
+        self._find_levels(character)
 
-    def _find_levels(self, character, upper_arms):
-        trunk_m = self.neck[1] - self.hips[1]
-        self.waist_m = self.hips[1] + WAIST[self.sex] * trunk_m
-        self.navel_m = self.hips[1] + NAVEL[self.sex] * trunk_m
-        self.arch_m = self.waist_m + RIB_ARCH * (self.neck[1] - self.waist_m)
+    def _find_levels(self, character):
+        floor, crown = self.skin[:, 1].min(), self.skin[:, 1].max()
+        self.hips_m = floor + TROCHANTERION[self.sex] * (crown - floor)
+        self.neck_m = floor + CERVICALE[self.sex] * (crown - floor)
+        trunk_m = self.neck_m - self.hips_m
+        self.waist_m = self.hips_m + WAIST[self.sex] * trunk_m
+        self.navel_m = self.hips_m + NAVEL[self.sex] * trunk_m
+        self.arch_m = self.waist_m + RIB_ARCH * (self.neck_m - self.waist_m)
         edges = np.concatenate([character.faces[:, [0, 1]], character.faces[:, [1, 2]]])
         borders = edges[self.of_arm[edges].sum(1) == 1]
         self.armpit_m = self.skin[borders].mean(1)[:, 1].min()
@@ -138,15 +145,15 @@ class Tape:
             return self._largest(np.arange(self.arch_m, self.armpit_m - TAPE_HALF_WIDTH_M, STEP_M))
         heights = []
         for way in (1, -1):
-            own = ~self.of_arm & (way * (self.skin[:, 0] - self.neck[0]) > 0)
+            own = ~self.of_arm & (way * (self.skin[:, 0] - self.middle) > 0)
             own &= (self.skin[:, 1] > self.arch_m) & (self.skin[:, 1] < self.armpit_m)
             p = self.skin[own]
             heights.append(p[np.argmax(p[:, 2]), 1])
         return float(np.mean(heights))
 
     def hip_height(self):
-        high = 0.5 * (self.hips[1] + self.waist_m)
-        low = self.hips[1] - BELOW_HIPS * (self.neck[1] - self.hips[1])
+        high = 0.5 * (self.hips_m + self.waist_m)
+        low = self.hips_m - BELOW_HIPS * (self.neck_m - self.hips_m)
         return self._largest(np.arange(low, high, STEP_M))
 
     def measures(self):
@@ -162,4 +169,5 @@ class Tape:
             across, ahead = np.ptp(self.section(level), axis=0)
             out[f"{name}_girth_m"] = self.girth(level)
             out[f"{name}_breadth_m"], out[f"{name}_depth_m"] = float(across), float(ahead)
+        out["waist_of_rig_girth_m"] = self.girth(self.waist_of_rig_m)
         return out
