@@ -59,7 +59,9 @@ public:
     /// VFIT_ERROR_STATE before the first frame that was kept. Without `side` as if nothing had been seen from
     /// there: estimators for the front alone have not learnt what it means.
     ScanFeatures features(bool side) const;
-    /// What keep_turning() has kept. 0.15 s after a whole turn.
+    /// How many views keep_turning() has kept.
+    size_t views_of_turn() const { return turn_.size(); }
+    /// The surface that they show. 0.15 s after a whole turn.
     TurnedTrunk turned_trunk() const { return TurnedTrunk(turn_, outline_loss_m()); }
     /// The shape of all frames together.
     const FitShape& shape() const { return fit_.output().pose.shape; }

@@ -266,7 +266,7 @@ std::vector<Measurement> MeasureModel::measure_anybody(const ScanFeatures& featu
         std::vector<Measurement> list = learnt.measure(one, seen);
         if (turn)
             combine_with_turn(list, woman ? turn->female : turn->male, turned_[kind.tight][woman],
-                              seen.doubt);
+                              turn->doubt * seen.doubt);
         return list;
     };
     if (sex != VFIT_SEX_UNKNOWN) return of_sex(sex);

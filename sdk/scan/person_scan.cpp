@@ -68,6 +68,7 @@ void PersonScan::reset() {
     side_frames_ = more_side_frames_ = 0;
     ring_.reset();
     forget(before_turn_), forget(turned_);
+    turned_views_ = 0;
     turned_rad_ = 0.0f, turned_ns_ = 0, fast_ = false;
 }
 
@@ -106,7 +107,6 @@ vfit_guidance PersonScan::turn(const ScanFrame& frame) {
     if (ring_.frames(way) >= kFramesOfWay) return VFIT_GUIDANCE_TURN_ROUND;
     body_->keep_turning(frame.image, *frame.body);
     ring_.add(way);
-    if (ring_.complete()) turned_.emplace(body_->turned_trunk());
     return VFIT_GUIDANCE_NONE;
 }
 
@@ -127,6 +127,15 @@ vfit_guidance PersonScan::fit(const ScanFrame& frame) {
     return VFIT_GUIDANCE_NONE;
 }
 
+const SeenOfTurn* PersonScan::seen_of_turn() const {
+    if (!ring_.closed()) return nullptr;
+    if (turned_views_ != body_->views_of_turn()) {
+        turned_.emplace(body_->turned_trunk(), ring_.doubt());
+        turned_views_ = body_->views_of_turn();
+    }
+    return &*turned_;
+}
+
 InferredSex PersonScan::inferred_sex() const {
     if (desc_.paper.sex != VFIT_SEX_UNKNOWN) return {desc_.paper.sex, 1.0f};
     if (!fitted_shape()) return {};
@@ -138,8 +147,8 @@ InferredSex PersonScan::inferred_sex() const {
 std::vector<Measurement> PersonScan::measurements() const {
     if (!body_) return paper_.measurements();
     if (frames_taken() == 0) fail(VFIT_ERROR_STATE, "scan: no frame from the front has been taken yet");
-    std::vector<Measurement> out = desc_.measure_model->measure(
-        features(), {with_side(), desc_.tight}, desc_.paper.sex, turned_ ? &*turned_ : nullptr);
+    std::vector<Measurement> out =
+        desc_.measure_model->measure(features(), {with_side(), desc_.tight}, desc_.paper.sex, seen_of_turn());
     for (Measurement& m : out)
         if (m.key == "stature_m") {
             m.sigma = std::hypot(m.sigma, body_->crown_sigma_m());

@@ -73,6 +73,8 @@ private:
     /// What is wrong with the frame for the body fit; it is kept where nothing is.
     vfit_guidance fit(const ScanFrame& frame);
     vfit_guidance turn(const ScanFrame& frame);
+    /// Null where they do not close.
+    const SeenOfTurn* seen_of_turn() const;
 
     PersonScanDesc desc_;
     PaperScan paper_;
@@ -82,9 +84,11 @@ private:
     // Of the views before the turn: the body goes on being fitted to all of it, and measures have not learnt
     // what that does to its shape.
     std::optional<ScanFeatures> before_turn_;
-    std::optional<SeenOfTurn> turned_;  // of a whole turn
-    float turned_rad_ = 0.0f;           // where the speed of the turn is counted from
-    int64_t turned_ns_ = 0;             // 0: nowhere yet
+    // Of all views of the turn so far, where they close round the person: made when measures are asked for.
+    mutable std::optional<SeenOfTurn> turned_;
+    mutable size_t turned_views_ = 0;
+    float turned_rad_ = 0.0f;  // where the speed of the turn is counted from
+    int64_t turned_ns_ = 0;    // 0: nowhere yet
     bool fast_ = false;
 };
 

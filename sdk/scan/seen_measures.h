@@ -31,10 +31,11 @@ SeenMeasures seen_measures(const TurnedTrunk& trunk, bool female);
 
 /// By the levels of each sex.
 struct SeenOfTurn {
-    explicit SeenOfTurn(const TurnedTrunk& trunk)
-        : male(seen_measures(trunk, false)), female(seen_measures(trunk, true)) {}
+    explicit SeenOfTurn(const TurnedTrunk& trunk, float doubt = 1.0f)
+        : male(seen_measures(trunk, false)), female(seen_measures(trunk, true)), doubt(doubt) {}
 
     SeenMeasures male, female;
+    float doubt;  // how many times wider its errors are than those of a whole turn
 };
 
 }  // namespace vfit

@@ -1,6 +1,7 @@
 // Which ways a person has faced in a turn on the spot.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -37,9 +38,31 @@ public:
         const uint32_t bits = seen(), opposite = (bits >> (kWays / 2) | bits << (kWays / 2)) & kAll;
         return std::popcount(bits) >= kEnough && (bits | opposite) == kAll;
     }
+    /// The views close round the person: some were seen at least every half turn, as front, side and back
+    /// are, or by three cameras and more.
+    bool closed() const { return std::popcount(seen()) >= 3 && widest_gap() <= kWays / 2; }
+    /// How many times wider the errors of a closed surface are than after a whole turn; by generated people.
+    float doubt() const {
+        constexpr float kFewViews = 1.5f, kUnseenSide = 1.4f;
+        constexpr int kQuarter = kWays / 4 + 1;
+        return (std::popcount(seen()) < kWays / 2 ? kFewViews : 1.0f) *
+               (widest_gap() > kQuarter ? kUnseenSide : 1.0f);
+    }
     void reset() { frames_ = {}; }
 
 private:
+    /// Ways from one that was seen to the next one.
+    int widest_gap() const {
+        int widest = kWays, first = -1, last = -1;
+        for (int way = 0; way < kWays; ++way) {
+            if (!frames(way)) continue;
+            widest = first < 0 ? 0 : std::max(widest, way - last);
+            if (first < 0) first = way;
+            last = way;
+        }
+        return first < 0 ? kWays : std::max(widest, first + kWays - last);
+    }
+
     std::array<uint32_t, kWays> frames_{};
 };
 

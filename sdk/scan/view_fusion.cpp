@@ -21,7 +21,11 @@ constexpr float kStray_m = 0.015f;  // residuals from there on count ever less (
 // How far body fitting may place a view off the others: across and towards the camera, turned, and leaning
 // (metres from hips to neck).
 constexpr float kShift_m = 0.02f, kTurn_rad = 0.06f, kLean_m = 0.02f;
-constexpr float kMiddle = 0.3f;                          // of the spine: leaning is about there
+constexpr float kMiddle = 0.3f;  // of the spine: leaning is about there
+// A radius apart from the middle between its neighbours: far less than what readings say, but an outline
+// alone does not make a spike where the views are few.
+constexpr float kApart_m = 0.01f;
+constexpr float kApartWeight = 1.0f / (kApart_m * kApart_m);
 constexpr float kThinnest_m = 0.03f, kWidest_m = 0.40f;  // radii
 constexpr float kOutlineWeight = 3.0f;
 constexpr int kUnknowns = 5;
@@ -92,7 +96,14 @@ struct Touch {
     size_t at = 0;
 };
 
-/// What no view shows lies between what is seen to both sides.
+/// The radius of the straight line from one radius to another, so many directions before and after it.
+float straight(float a, float b, size_t before, size_t after) {
+    const float from = float(before) * TrunkSection::kStep_rad, to = float(after) * TrunkSection::kStep_rad;
+    return a * b * std::sin(from + to) / (a * std::sin(from) + b * std::sin(to));
+}
+
+/// What no view shows lies on the straight line between what is seen to both sides: a curve would carry
+/// outlines that touch nothing.
 void bridge(TrunkSection& section, const std::array<bool, TrunkSection::kDirections>& seen) {
     constexpr size_t kAll = TrunkSection::kDirections;
     for (size_t d = 0; d < kAll; ++d) {
@@ -101,9 +112,10 @@ void bridge(TrunkSection& section, const std::array<bool, TrunkSection::kDirecti
         while (before < kAll && !seen[(d + kAll - before) % kAll]) ++before;
         while (after < kAll && !seen[(d + after) % kAll]) ++after;
         if (before == kAll) return;
-        section.radii_m[d] =
-            std::lerp(section.radii_m[(d + kAll - before) % kAll], section.radii_m[(d + after) % kAll],
-                      float(before) / float(before + after));
+        const float a = section.radii_m[(d + kAll - before) % kAll], b = section.radii_m[(d + after) % kAll];
+        section.radii_m[d] = before + after < kAll / 2
+                                 ? straight(a, b, before, after)
+                                 : std::lerp(a, b, float(before) / float(before + after));
     }
 }
 
@@ -146,7 +158,7 @@ public:
     /// Overwrites what it knows of the body.
     ~Fusion() {
         for (Seen& s : seen_) wipe(std::span(s.readings));
-        wipe(std::span(cells_)), wipe(points_);
+        wipe(std::span(cells_)), wipe(points_), wipe(apart_);
     }
     Fusion(const Fusion&) = delete;
     Fusion& operator=(const Fusion&) = delete;
@@ -164,6 +176,7 @@ public:
                 see_surface(i, shaped);
                 if (shaped) see_outline(i);
             }
+            look_at_neighbours(shaped);
             if (round >= kStill) move();
             for (size_t l = 0; l < sections_.size(); ++l) shape(l, round + 1 == kRounds);
         }
@@ -266,7 +279,7 @@ private:
         std::vector<size_t> of_cell;
         for (size_t cell = 0; cell < kCells; ++cell) {
             of_cell.clear();
-            double weight = 0.0, off = 0.0;
+            double weight = double(kApartWeight), off = double(kApartWeight * apart_[cell]);
             for (size_t v = 0; v < seen_.size(); ++v)
                 if (const Cell& c = cells_[v * kCells + cell]; c.weight > 0.0f)
                     of_cell.push_back(v), weight += double(c.weight), off += double(c.off);
@@ -297,16 +310,28 @@ private:
             }
     }
 
+    /// How far each radius lies below the middle between its neighbours.
+    void look_at_neighbours(bool shaped) {
+        constexpr size_t kAll = TrunkSection::kDirections;
+        for (size_t l = 0; l < sections_.size(); ++l) {
+            const auto& radii = sections_[l].radii_m;
+            for (size_t d = 0; d < kAll; ++d)
+                apart_[l * kAll + d] =
+                    shaped ? 0.5f * (radii[(d + 1) % kAll] + radii[(d + kAll - 1) % kAll]) - radii[d] : 0.0f;
+        }
+    }
+
     void shape(size_t level, bool last) {
         auto& radii = sections_[level].radii_m;
         std::array<bool, TrunkSection::kDirections> shown{};
         for (size_t d = 0; d < radii.size(); ++d) {
-            float weight = 0.0f, off = 0.0f;
+            const size_t cell = level * TrunkSection::kDirections + d;
+            float weight = kApartWeight, off = kApartWeight * apart_[cell];
             for (size_t v = 0; v < seen_.size(); ++v) {
-                const Cell& c = cells_[v * kCells + level * TrunkSection::kDirections + d];
+                const Cell& c = cells_[v * kCells + cell];
+                shown[d] = shown[d] || c.weight > 0.0f;
                 weight += c.weight, off += c.off;
             }
-            shown[d] = weight > 0.0f;
             if (shown[d])
                 radii[d] = std::clamp(radii[d] + off / weight, kThinnest_m, kWidest_m);
             else if (last)
@@ -320,6 +345,7 @@ private:
     std::array<std::array<Vec2, TrunkSection::kDirections>, size_t(TrunkView::kLevels)> normals_{}, points_{};
     std::vector<Seen> seen_;
     std::vector<Cell> cells_;  // of each view all
+    std::array<float, kCells> apart_{};
     std::vector<Equations> equations_;
     std::vector<double> matrix_, change_;
 };

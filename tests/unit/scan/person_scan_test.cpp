@@ -115,6 +115,37 @@ TEST_F(PersonScanTest, LeadsOnceRound) {
     EXPECT_EQ(scan.turn_seen(), 0u);
 }
 
+TEST_F(PersonScanTest, QuarterViewsOfOnePersonAreFused) {
+    PersonScanDesc turn = desc(4, 0);
+    turn.turn = turn.tight = true;
+    PersonScan scan(turn);
+    for (int i = 0; i < 10; ++i) add(scan, front_);
+    const float before = measured(scan, "waist_minimum_girth_m").sigma;
+    // As a person does who stands four times, or who is seen by four cameras, one after the other.
+    const auto stand = [&](float turned_rad) {
+        time_ns_ += 1'000'000'000;
+        Stance stance;
+        stance.turned_rad = turned_rad, stance.arms_rad = 0.75f;
+        const auto person = standing_person(avatar_, stance);
+        uint32_t taken = 0;
+        for (int i = 0; i < 6; ++i) taken += add(scan, person).taken;
+        EXPECT_GT(taken, 2u) << turned_rad;
+    };
+    stand(0.5f * kPi);
+    EXPECT_EQ(measured(scan, "waist_minimum_girth_m").sigma, before) << "a view from the side closes nothing";
+    stand(kPi);
+    const float three = measured(scan, "waist_minimum_girth_m").sigma;
+    EXPECT_LT(three, before);
+    stand(1.5f * kPi);
+    const auto tape = measure_avatar(avatar_, VFIT_SEX_FEMALE);
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m", "waist_minimum_girth_m"}) {
+        const Measurement m = measured(scan, key);
+        EXPECT_NEAR(m.value, find(tape, key)->value, std::min(0.03f, 3.0f * m.sigma)) << key;
+    }
+    EXPECT_LT(measured(scan, "waist_minimum_girth_m").sigma, three);
+    EXPECT_FALSE(scan.complete()) << "a whole turn tells more";
+}
+
 TEST_F(PersonScanTest, MeasuresAPersonOfItsOwnSpace) {
     PersonScan scan(desc(8, 0));
     for (int i = 0; i < 8; ++i) add(scan, front_);

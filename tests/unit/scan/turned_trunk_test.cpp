@@ -123,6 +123,31 @@ TEST(TurnedTrunk, OutlinesAloneMeetTheHull) {
     EXPECT_NEAR(TurnedTrunk(views, 0.0f).girth_m(TrunkProfile::along(10)), form.girth_m(10), 0.01f);
 }
 
+TEST(TurnedTrunk, FourViewsSuffice) {
+    for (const Form& form : {Form{}, Form{0.14f, 0.09f, 0.09f, 2.0f}, Form{0.19f, 0.16f, 0.14f, 3.0f}}) {
+        const std::vector<TrunkView> all = turn_of(form);
+        std::vector<TrunkView> views;
+        for (size_t way = 0; way < all.size(); way += 6) views.push_back(all[way]);
+        const TurnedTrunk trunk(views, 0.0f);
+        for (const int level : {4, 10, 16})
+            EXPECT_NEAR(trunk.girth_m(TrunkProfile::along(level)), form.girth_m(level), 0.01f) << level;
+    }
+}
+
+TEST(TurnedTrunk, AnOutlineThatNoReadingSupportsMakesNoSpike) {
+    const Form form;
+    const std::vector<TrunkView> all = turn_of(form);
+    std::vector<TrunkView> views = {all[0], all[6], all[12], all[18]};
+    constexpr size_t kLevel = 10;
+    for (TrunkView& view : views)  // readings of the middle alone, and one outline of a sleeve
+        for (size_t column = 0; column < size_t(TrunkView::kColumns); ++column)
+            if (column < 27 || column > 32) view.towards_m[kLevel][column] = std::nanf("");
+    for (TrunkView& view : views) view.reach_m[kLevel].fill(std::nanf(""));
+    views[0].reach_m[kLevel][TrunkView::kRightOfPicture] = 0.40f;
+    const float girth = TurnedTrunk(views, 0.0f).girth_m(TrunkProfile::along(int(kLevel)));
+    EXPECT_LT(girth, form.girth_m(int(kLevel)) + 0.05f);
+}
+
 TEST(TurnedTrunk, StrayReadingsHardlyCount) {
     const Form form;
     std::vector<TrunkView> views = turn_of(form);
