@@ -38,15 +38,14 @@ public:
         const uint32_t bits = seen(), opposite = (bits >> (kWays / 2) | bits << (kWays / 2)) & kAll;
         return std::popcount(bits) >= kEnough && (bits | opposite) == kAll;
     }
-    /// The views close round the person: some were seen at least every half turn, as front, side and back
-    /// are, or by three cameras and more.
-    bool closed() const { return std::popcount(seen()) >= 3 && widest_gap() <= kWays / 2; }
+    /// Half a turn at least was seen: its views close round the person, as both sides are seen from before
+    /// and behind.
+    bool closed() const { return std::popcount(seen()) >= kWays / 2 && widest_gap() <= kWays / 2; }
     /// How many times wider the errors of a closed surface are than after a whole turn; by generated people.
     float doubt() const {
-        constexpr float kFewViews = 1.5f, kUnseenSide = 1.4f;
+        constexpr float kUnseenSide = 1.4f;
         constexpr int kQuarter = kWays / 4 + 1;
-        return (std::popcount(seen()) < kWays / 2 ? kFewViews : 1.0f) *
-               (widest_gap() > kQuarter ? kUnseenSide : 1.0f);
+        return widest_gap() > kQuarter ? kUnseenSide : 1.0f;
     }
     void reset() { frames_ = {}; }
 

@@ -43,7 +43,7 @@ Json measure(const Options& options) {
     out["method"] = scan_method_text(run.method);
     if (!run.note.empty()) out["note"] = run.note;
     if (options.turn && run.method == VFIT_SCAN_FIT && !run.complete)
-        out["note"] = "no whole turn was seen: it counts where views of it close round the person";
+        out["note"] = "no whole turn was seen: half of one counts, less than that does not";
     out["frames"] = run.frames_taken;
     if (run.method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
     if (options.turn) out["turned"] = double(std::popcount(run.turn_seen)) / double(VFIT_TURN_WAYS);

@@ -35,11 +35,8 @@ MEASURES = {
     "waist_girth_m (rig's)": "waist_of_rig_girth_m",
 }
 FRONT_FRAMES, SIDE_FRAMES, STILL_FRAMES = 45, 45, 20  # the tracker sees the room first
-TURN_FRAMES = 160  # once round
-QUARTER_FRAMES = 25  # of each
-QUARTERS_DEG = (90, 180, 270)
-CAMERAS_APART_M = 0.3  # those that see the quarters
-TURNED, CLOSED = 5 / 6, 3 / 24  # of the ways to face: a turn that is complete, and quarters
+TURN_FRAMES, TURN_DEG = 160, 375  # once round
+TURNED = 0.5  # of the ways to face: from there on a turn counts
 GIRTHS, DEPTHS = (0.92, 1.0, 1.08, 1.18), (1.0, 0.95, 1.08)
 STATURES_M = {"f": (1.52, 1.60, 1.68, 1.76), "m": (1.65, 1.73, 1.81, 1.90)}
 SENSORS = [(512, 424, 366.0), (640, 480, 525.0)]  # Kinect v2; of the field of view of Kinect v1
@@ -76,9 +73,8 @@ class Person:
         together = Tape(self.actor(ARMS_OUT_DEG, 0.0, FEET_TOGETHER_M), self.sex).measures()
         return out | {"stature_m": together["stature_m"]}
 
-    def record(self, folder, views_after):
-        """From the front, then from the side, once round on the spot, or a quarter further three times as
-        other cameras would see it; with small movements."""
+    def record(self, folder, turn_deg):
+        """From the front, then from the side or so far round on the spot, with small movements."""
         rng = self.rng
         width, height, focal = SENSORS[rng.integers(len(SENSORS))]
         camera_m, distance_m = rng.uniform(0.6, 1.6), rng.uniform(2.4, 3.1) + 0.35 * (focal > 500)
@@ -88,28 +84,22 @@ class Person:
         feet_m = rng.uniform(0.25, 0.35)
         front = self.actor(rng.uniform(30, 43), 0.0, feet_m), rng.uniform(-8, 8)
         side = self.actor(rng.uniform(6, 12), rng.uniform(30, 43), feet_m), 90 + rng.uniform(-8, 8)
-        # Actor, heading and place of every frame.
-        here = np.zeros(3)
-        views = [(front[0].skin(0), front[0].joints(0), front[1], here)] * FRONT_FRAMES
-        if views_after == "side":
-            views += [(side[0].skin(0), side[0].joints(0), side[1], here)] * SIDE_FRAMES
-        else:
+        # Actor and heading of every frame.
+        views = [(front[0].skin(0), front[0].joints(0), front[1])] * FRONT_FRAMES
+        if turn_deg:
             turning = self.actor(rng.uniform(36, 48), 0.0, feet_m)
             turning = turning.skin(0), turning.joints(0)
-        if views_after == "turn":
-            views += [(*turning, front[1] + 375 * i / TURN_FRAMES, here) for i in range(TURN_FRAMES)]
-        if views_after == "quarters":
-            for quarter in QUARTERS_DEG:
-                heading = quarter + rng.uniform(-8, 8)
-                place = np.array([1, 0, 1]) * rng.uniform(-CAMERAS_APART_M, CAMERAS_APART_M, 3)
-                views += [(*turning, heading, place)] * QUARTER_FRAMES
+            frames = TURN_FRAMES * turn_deg // TURN_DEG
+            views += [(*turning, front[1] + TURN_DEG * i / TURN_FRAMES) for i in range(frames)]
+        else:
+            views += [(side[0].skin(0), side[0].joints(0), side[1])] * SIDE_FRAMES
         recording = Recording(folder, camera, ["empty"] * STILL_FRAMES + ["scan"] * len(views))
         for _ in range(STILL_FRAMES):
             recording.add(sense(room, focal, rng), front[0].joints(0))
-        for frame, (skin, joints, heading, place) in enumerate(views):
+        for frame, (skin, joints, heading) in enumerate(views):
             t = frame / FPS
             turn = _about_up(heading + 0.7 * np.sin(1.1 * t))
-            at = place + [0.004 * np.sin(2.1 * t), 0, 0.006 * np.sin(1.4 * t + 1) - distance_m]
+            at = np.array([0.004 * np.sin(2.1 * t), 0, 0.006 * np.sin(1.4 * t + 1) - distance_m])
             depth = see(skin @ turn.T + at, self.character.faces, camera, room)
             moved = {name: camera.to_camera(p @ turn.T + at) for name, p in joints.items()}
             recording.add(sense(depth, focal, rng), moved)
@@ -126,7 +116,7 @@ def _about_up(degrees):
     return np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
 
 
-def measured(vfit, folder, flags, views_after):
+def measured(vfit, folder, flags):
     """What vfit tells of a recording: measures by key, or the reason why there are none."""
     command = [
         vfit,
@@ -143,9 +133,8 @@ def measured(vfit, folder, flags, views_after):
     if done.returncode:
         return None, done.stderr.strip()
     out = json.loads(done.stdout)
-    enough = TURNED if views_after == "turn" else CLOSED
-    if out["method"] != "fit" or not (out.get("side_frames") or out.get("turned", 0) >= enough):
-        return None, "no view from the side, or not all around: " + out.get("note", "")
+    if out["method"] != "fit" or not (out.get("side_frames") or out.get("turned", 0) >= TURNED):
+        return None, "no side view, or no half turn: " + out.get("note", "")
     return out["measurements"], ""
 
 
@@ -172,30 +161,36 @@ def main():
     parser.add_argument("--vfit", default="build/bin/vfit", help="the program (build/bin/vfit)")
     parser.add_argument("--work", type=Path, required=True, help="recordings are kept there")
     parser.add_argument("--people", type=int, default=48, help="how many (48)")
-    after = parser.add_mutually_exclusive_group()
-    after.add_argument("--turn", action="store_true", help="a turn on the spot instead of the side view")
-    after.add_argument("--quarters", action="store_true", help="both sides and the back, as of four cameras")
+    parser.add_argument(
+        "--turn",
+        type=int,
+        nargs="?",
+        const=TURN_DEG,
+        default=0,
+        metavar="DEGREES",
+        help="a turn on the spot instead of the side view (all round)",
+    )
     parser.add_argument("--list", action="store_true", help="a line for each person")
     parser.add_argument("--json", type=Path, help="write the figures there")
     options = parser.parse_args()
     files = sorted(options.folder.glob("*.glb"))
     if not files:
         raise SystemExit(f"judge_measures: {options.folder}: holds no .glb")
-    views_after = "turn" if options.turn else "quarters" if options.quarters else "side"
-    turn = [] if views_after == "side" else ["--turn"]
+    turn = ["--turn"] if options.turn else []
+    suffix = "" if not options.turn else "-turn" if options.turn == TURN_DEG else f"-turn{options.turn}"
     told = {"told nothing": (turn, []), "told tight": (turn + ["--tight"], [])}
     for number in range(options.people):
         try:
             person = Person(files[number % len(files)], number)
             truth = person.truth()
-            folder = options.work / (person.name + ("" if views_after == "side" else "-" + views_after))
+            folder = options.work / (person.name + suffix)
             if not (folder / "camera.json").exists():
-                person.record(folder, views_after)
+                person.record(folder, options.turn)
             (folder / "truth.json").write_text(json.dumps({"sex": person.sex, "measures": truth}))
         except (BadFile, OSError) as error:
             raise SystemExit(f"judge_measures: {error}") from None
         for title, (flags, rows) in told.items():
-            measures, why = measured(options.vfit, folder, flags, views_after)
+            measures, why = measured(options.vfit, folder, flags)
             if measures is None:
                 print(f"{person.name}, {title}: {why}", file=sys.stderr)
                 continue
