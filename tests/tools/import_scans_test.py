@@ -113,7 +113,8 @@ class ImportScansTest(unittest.TestCase):
         )
         folder = self.out / "Part1-Woman1"
         camera = json.loads((folder / "camera.json").read_text())
-        self.assertEqual((camera["width"], camera["fx"], camera["cy"], camera["fps"]), (320, 285.63, 120.0, 15))
+        told = tuple(camera[name] for name in ("width", "fx", "cy", "fps"))
+        self.assertEqual(told, (320, 285.63, 120.0, 15))
         self.assertEqual((folder / "depth/000001.png").read_bytes(), b"image 1")
         measures = json.loads((folder / "measures.json").read_text())
         self.assertEqual(

@@ -2,18 +2,17 @@
 // to the survey that they are drawn from.
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
-#include "avatar/avatar.h"
 #include "bench/bench.h"
 #include "client/output.h"
 #include "core/platform.h"
 #include "population/population.h"
+#include "population/population_mesh.h"
 
 namespace vfit::tools {
 
@@ -70,31 +69,6 @@ void print_scatter(const std::vector<PersonOfPopulation>& people, const Anthropo
         }
 }
 
-/// The mesh on which the person's girths are taken, for other tapes: a Wavefront file in metres, Y up, facing
-/// +Z, with a group for the faces of the arms. The joints that levels hang on are comments.
-void write_mesh(const std::string& path, const vfit::Avatar& avatar) {
-    Body body;
-    const Mesh mesh = avatar.measuring_mesh({}, &body);
-    std::ofstream out(path);
-    for (const auto& [name, joint] : {std::pair("NECK", int{VFIT_JOINT_NECK}),
-                                      {"HEAD", int{VFIT_JOINT_HEAD}},
-                                      {"LEFT_HIP", VFIT_JOINT_LEFT_HIP},
-                                      {"RIGHT_HIP", VFIT_JOINT_RIGHT_HIP}}) {
-        const Vec3 p = body.at(joint);
-        out << "# joint " << name << " " << p.x << " " << p.y << " " << p.z << "\n";
-    }
-    for (const Vec3& p : mesh.positions) out << "v " << p.x << " " << p.y << " " << p.z << "\n";
-    for (const bool arms : {false, true}) {
-        out << (arms ? "g arms\n" : "g body\n");
-        for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-            const uint32_t* f = &mesh.indices[i];
-            if (is_arm(avatar.parts()[f[0]]) == arms)
-                out << "f " << f[0] + 1 << " " << f[1] + 1 << " " << f[2] + 1 << "\n";
-        }
-    }
-    if (!out.flush()) throw Failure(path + ": cannot be written");
-}
-
 void run(const Options& o) {
     const Timer start;
     const std::shared_ptr<const BodyModel> model = BodyModel::load(library_file("vfit_data/body.bin"));
@@ -106,12 +80,7 @@ void run(const Options& o) {
     const Timer timer;
     for (uint32_t i = o.first; i < o.first + o.count; ++i) {
         const PersonOfPopulation person = population.draw(i);
-        if (!o.meshes.empty()) {
-            std::vector<float> shape = model->default_shape(person.sex);
-            for (const auto& [name, value] : person.shape) shape[size_t(model->parameter(name))] = value;
-            write_mesh(o.meshes + "/" + std::to_string(i) + ".obj",
-                       vfit::Avatar(model, {person.sex}, shape, Vec2(1.0f)));
-        }
+        if (!o.meshes.empty()) write_mesh(o.meshes + "/" + std::to_string(i) + ".obj", model, person);
         if (o.json) {
             rows.push_back({{"number", i},
                             {"sex", person.sex == VFIT_SEX_MALE ? "m" : "f"},

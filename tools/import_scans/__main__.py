@@ -49,6 +49,7 @@ TC2 = {
 }
 UNITS = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "inch": 0.0254, "inches": 0.0254}
 SEX = {"female": "f", "male": "m"}
+BARE = ("barefoot", "shaved")  # shoes and hair
 PLAUSIBLE_STATURE_M = (0.9, 2.4)
 
 
@@ -176,7 +177,7 @@ def import_texel(xml, out, options):
                     "scan": folder.name,
                     "person": name,
                     "sex": SEX.get(person.get("gender"), "") if person is not None else "",
-                    "bare": "yes" if tag.get("shoes") == "barefoot" and tag.get("hairstyle") == "shaved" else "",
+                    "bare": "yes" if (tag.get("shoes"), tag.get("hairstyle")) == BARE else "",
                     "tight": "yes" if tag.get("clothing") in ("underwear", "tight") else "",
                     "turn": "yes",
                 }

@@ -196,8 +196,9 @@ def main():
                 continue
             rows.append((truth, measures))
             if options.list:
-                off = [round(1000 * (measures[k.split()[0]]["value"] - truth[t])) for k, t in MEASURES.items()]
-                own = [round(1000 * truth[t]) for t in MEASURES.values()]
+                pairs = [(measures[key.split()[0]]["value"], truth[own]) for key, own in MEASURES.items()]
+                off = [round(1000 * (value - own)) for value, own in pairs]
+                own = [round(1000 * own) for _, own in pairs]
                 print(f"  {person.name:14} {title:13} true {own} off {off} mm")
         print(f"\rmeasured {number + 1} of {options.people}", end="", file=sys.stderr)
     print(file=sys.stderr)
