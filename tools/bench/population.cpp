@@ -11,8 +11,8 @@
 #include "bench/bench.h"
 #include "client/output.h"
 #include "core/platform.h"
+#include "population/body_with_measures.h"
 #include "population/population.h"
-#include "population/population_mesh.h"
 
 namespace vfit::tools {
 
@@ -80,7 +80,11 @@ void run(const Options& o) {
     const Timer timer;
     for (uint32_t i = o.first; i < o.first + o.count; ++i) {
         const PersonOfPopulation person = population.draw(i);
-        if (!o.meshes.empty()) write_mesh(o.meshes + "/" + std::to_string(i) + ".obj", model, person);
+        if (!o.meshes.empty()) {
+            std::vector<float> shape = model->default_shape(person.sex);
+            for (const auto& [name, value] : person.shape) shape[size_t(model->parameter(name))] = value;
+            write_mesh(o.meshes + "/" + std::to_string(i) + ".obj", model, person.sex, shape);
+        }
         if (o.json) {
             rows.push_back({{"number", i},
                             {"sex", person.sex == VFIT_SEX_MALE ? "m" : "f"},

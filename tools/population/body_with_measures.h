@@ -31,6 +31,11 @@ using BodyMeasures = std::map<std::string, double>;
 BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex sex,
                          const std::vector<float>& shape, double navel_share);
 
+/// The mesh on which those are taken, as a Wavefront file for tapes of others: metres, Y up, facing +Z, with
+/// a group for the faces of the arms. The joints that levels hang on are comments.
+void write_mesh(const std::string& path, const std::shared_ptr<const BodyModel>& model, vfit_sex sex,
+                const std::vector<float>& shape);
+
 class BodyWithMeasures {
 public:
     /// Looks at how those measures move with the free values, about bodies of three weights.
