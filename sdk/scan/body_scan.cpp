@@ -17,6 +17,7 @@ constexpr int kFewestColumns = 3;
 // Above a head: longer without a reading than any sensor's outline is, and a background beyond.
 constexpr float kHidden_m = 0.02f, kHairReach_m = 0.15f;
 constexpr int kHidden_px = 3;
+constexpr uint32_t kViewsOfWay = 3;  // of a turn; more tell nothing new
 
 }  // namespace
 
@@ -29,7 +30,6 @@ void BodyScan::reset() {
     profile_.reset();
     for (TrunkView& view : turn_) wipe(view);
     turn_.clear();
-    turned_frames_ = 0;
     ring_.reset();
     outline_loss_.reset();
     wipe(sums_);
@@ -68,16 +68,10 @@ float BodyScan::unseen_crown_m() const {
 void BodyScan::keep_turning(const DepthImage& image, const Body& body) {
     turn_.reserve(size_t(TurnRing::kWays) * kViewsOfWay);
     const int way = TurnRing::way_of(facing(image.camera));
-    // The newest: body fitting settles while the person stands.
-    const uint32_t seen = ring_.frames(way);
-    size_t& place = places_[size_t(way)][seen % kViewsOfWay];
-    if (seen < kViewsOfWay) {
-        place = turn_.size();
-        turn_.emplace_back();
-    }
+    if (ring_.frames(way) >= kViewsOfWay) return;
     ring_.add(way);
-    ++turned_frames_;
-    look_at_trunk(image, uint8_t(body.id), fit_, turn_[place]);
+    turn_.emplace_back();
+    look_at_trunk(image, uint8_t(body.id), fit_, turn_.back());
 }
 
 ViewKind BodyScan::add(const DepthImage& image, const Body& body) {

@@ -50,8 +50,7 @@ public:
     /// Fits the body of a person who turns round on the spot. Radians that they are turned by to their left;
     /// nothing where the fit is not good.
     std::optional<float> fit_turning(const DepthImage& image, const Body& body);
-    /// Keeps the frame that was fitted last, for the trunk alone, in place of an older one of that way to
-    /// face where those are many. Does not allocate after the first.
+    /// Keeps the frame that was fitted last, for the trunk alone. Does not allocate after the first.
     void keep_turning(const DepthImage& image, const Body& body);
     /// Forgets the person.
     void reset();
@@ -60,8 +59,8 @@ public:
     /// VFIT_ERROR_STATE before the first frame that was kept. Without `side` as if nothing had been seen from
     /// there: estimators for the front alone have not learnt what it means.
     ScanFeatures features(bool side) const;
-    /// How many frames keep_turning() has taken.
-    uint32_t turned_frames() const { return turned_frames_; }
+    /// How many views keep_turning() has kept.
+    size_t views_of_turn() const { return turn_.size(); }
     /// The surface that they show. 0.15 s after a whole turn.
     TurnedTrunk turned_trunk() const { return TurnedTrunk(turn_, outline_loss_m()); }
     /// The shape of all frames together.
@@ -98,11 +97,8 @@ private:
     BodyFit fit_;
     SurfaceResiduals residuals_;
     TrunkProfile profile_;
-    static constexpr uint32_t kViewsOfWay = 3;  // of a turn; more tell nothing new
     std::vector<TrunkView> turn_;
-    TurnRing ring_;                                                          // of turn_
-    std::array<std::array<size_t, kViewsOfWay>, TurnRing::kWays> places_{};  // in it, of each way's views
-    uint32_t turned_frames_ = 0;
+    TurnRing ring_;  // of turn_
     OutlineLoss outline_loss_;
     struct Sums {
         double crown_m = 0.0, gap_m = 0.0, bound_m = 0.0, distance_m = 0.0, pixel_m = 0.0;

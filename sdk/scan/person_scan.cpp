@@ -68,7 +68,7 @@ void PersonScan::reset() {
     side_frames_ = more_side_frames_ = 0;
     ring_.reset();
     forget(before_turn_), forget(turned_);
-    turned_frames_ = 0;
+    turned_views_ = 0;
     turned_rad_ = 0.0f, turned_ns_ = 0, fast_ = false;
 }
 
@@ -129,9 +129,9 @@ vfit_guidance PersonScan::fit(const ScanFrame& frame) {
 
 const SeenOfTurn* PersonScan::seen_of_turn() const {
     if (!ring_.closed()) return nullptr;
-    if (turned_frames_ != body_->turned_frames()) {
+    if (turned_views_ != body_->views_of_turn()) {
         turned_.emplace(body_->turned_trunk(), ring_.doubt());
-        turned_frames_ = body_->turned_frames();
+        turned_views_ = body_->views_of_turn();
     }
     return &*turned_;
 }

@@ -86,7 +86,7 @@ private:
     std::optional<ScanFeatures> before_turn_;
     // Of all views of the turn so far, where they close round the person: made when measures are asked for.
     mutable std::optional<SeenOfTurn> turned_;
-    mutable uint32_t turned_frames_ = 0;
+    mutable size_t turned_views_ = 0;
     float turned_rad_ = 0.0f;  // where the speed of the turn is counted from
     int64_t turned_ns_ = 0;    // 0: nowhere yet
     bool fast_ = false;
