@@ -147,17 +147,41 @@ class ImportScansTest(unittest.TestCase):
             (XML.replace(' fx="285.63"', ""), "the camera lacks one of fx, fy, cx, cy"),
             (XML.replace('path="frames"', 'path="nowhere"'), "nowhere holds no depth image"),
             (XML.replace('pass="body"', 'pass="head"'), "no depth stream of a whole body"),
+            (XML.replace('width="320"', 'width="-5"'), "images of -5 by 240 pixels"),
+            (XML.replace('width="320"', 'width="320.5"'), "images of 320.5 by 240 pixels"),
+            (XML.replace('fx="285.63"', 'fx="-1"'), "a focal length of -1 pixels"),
+            (XML.replace('fy="285.63"', 'fy="nan"'), "the camera lacks one of"),
         ]
         for i, (xml, _) in enumerate(cases):
             self.texel(f"Man{i}", xml=xml)
         self.texel("Man9", sheet="ID,Name,Clause,Value\nm1,Across Back,5.4.3,40\n")
+        for name, value in (("Man10", "inf"), ("Man11", "-75.0"), ("Man12", "7500")):
+            self.texel(name, sheet=SHEET.replace("75.0", value))
         self.texel("Woman9")
         code, errors = self.run_tool()
+        for name in ("Man10", "Man11", "Man12"):
+            self.assertRegex(errors, f"{name}/.*: waist_girth_m of .* m is not plausible")
         self.assertEqual(code, 1)
         for i, (_, words) in enumerate(cases):
             self.assertRegex(errors, f"Man{i}/person.scan.xml: .*{words}")
         self.assertRegex(errors, "Man9/.*measurements.csv: holds no measure by a clause")
         self.assertEqual([row["person"] for row in self.table()], ["Part1-Woman9"])
+
+    def test_sheets_in_other_encodings_are_read(self):
+        person = self.texel(sheet="")
+        (person / "portal_mx").mkdir()
+        sheet = "ID,Name,Clause,Value\nm12,K\u00f6rperh\u00f6he\0,5.1.1,170.0\nm16,Taille,5.3.10,nan\n"
+        (person / "portal_mx" / "measurements.csv").write_bytes(sheet.encode("latin-1"))
+        self.assertEqual(self.run_tool(), (0, ""))
+        measures = json.loads((self.out / "Part1-Woman1/measures.json").read_text())
+        self.assertEqual(measures, {"stature_m": 1.7})
+
+    def test_options_are_numbers_above_zero(self):
+        self.texel()
+        for option in ("--fps", "--depth-unit"):
+            for value in ("0", "-1", "nan", "inf"):
+                with self.assertRaises(SystemExit):
+                    self.run_tool(option, value)
 
     def test_nothing_is_written_over(self):
         self.texel()

@@ -51,6 +51,8 @@ UNITS = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "inch": 0.0254, "inche
 SEX = {"female": "f", "male": "m"}
 BARE = ("barefoot", "shaved")  # shoes and hair
 PLAUSIBLE_STATURE_M = (0.9, 2.4)
+LARGEST_M = 4.0  # of any measure
+LARGEST_IMAGE = 16384  # pixels, as recordings have it
 
 
 class Refused(Exception):
@@ -58,17 +60,19 @@ class Refused(Exception):
 
 
 def plausible(path, measures):
-    stature = measures.get("stature_m")
-    if stature is not None and not PLAUSIBLE_STATURE_M[0] <= stature <= PLAUSIBLE_STATURE_M[1]:
-        raise Refused(f"{path}: a stature of {stature:g} m is not plausible: is the unit another one?")
+    for key, value in sorted(measures.items(), key=lambda one: one[0] != "stature_m"):
+        low, high = PLAUSIBLE_STATURE_M if key == "stature_m" else (0.0, LARGEST_M)
+        if not low < value < high:
+            name = "a stature" if key == "stature_m" else key
+            raise Refused(f"{path}: {name} of {value:g} m is not plausible: is the unit another one?")
     return measures
 
 
 def texel_measures(path):
     """Measures of a Texel scanner: rows of identifier, name and clause in either order, and centimetres."""
     sides = {}
-    with open(path, newline="", encoding="utf-8-sig") as file:
-        for row in csv.reader(file):
+    with open(path, newline="", encoding="utf-8-sig", errors="replace") as file:
+        for row in csv.reader(line.replace("\0", "") for line in file):
             if len(row) < 4:
                 continue
             try:
@@ -78,7 +82,7 @@ def texel_measures(path):
             words = [cell.strip() for cell in row[1:3]]
             clause = next((c for cell in words for c in re.findall(r"\b5\.\d+\.\d+\b", cell)), None)
             key = CLAUSES.get(clause) or next((NAMES[w.lower()] for w in words if w.lower() in NAMES), None)
-            if key and value > 0:
+            if key and (value > 0 or value < 0):  # 0 and NaN: left out
                 sides.setdefault(key, []).append(value)
     if not sides:
         raise Refused(f"{path}: holds no measure by a clause of ISO 8559-1 that vfit has")
@@ -104,7 +108,7 @@ def tc2_measures(path):
         raise Refused(f"{path}: no line OPTION UNITS=... says the unit")
     if not values:
         raise Refused(f"{path}: no line MEASURE ... holds a measure that vfit has")
-    return plausible(path, {key: value * unit for key, value in values.items() if value > 0})
+    return plausible(path, {key: value * unit for key, value in values.items() if value})
 
 
 def numbers(element, names, path):
@@ -128,6 +132,10 @@ def write_recording(depth, xml, folder, options):
     """The camera and the images of one <depth>."""
     width, height = numbers(depth, ("width", "height"), xml)
     fx, fy, cx, cy = numbers(depth.find("intrinsics"), ("fx", "fy", "cx", "cy"), xml)
+    if not all(size == int(size) and 0 < size <= LARGEST_IMAGE for size in (width, height)):
+        raise Refused(f"{xml}: images of {width:g} by {height:g} pixels: each is 1 to {LARGEST_IMAGE}")
+    if not (fx > 0 and fy > 0):
+        raise Refused(f"{xml}: a focal length of {min(fx, fy):g} pixels is not above 0")
     images = sorted((xml.parent / depth.get("path", "")).glob("*.png"))
     if not images:
         raise Refused(f"{xml}: {depth.get('path')} holds no depth image (*.png)")
@@ -198,6 +206,13 @@ def import_tc2(sheet, out, options):
     return [{"scan": folder.name, "person": sheet.stem, "sex": sex, "bare": "", "tight": "", "turn": ""}]
 
 
+def above_zero(text):
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
+    return value
+
+
 COLUMNS = ("scan", "person", "sex", "bare", "tight", "turn")
 FORMATS = {"*.scan.xml": import_texel, "*.txt": import_tc2}
 
@@ -213,8 +228,8 @@ def main():
         default="portal_mx",
         help="whose measurements.csv is the truth (portal_mx; free_fusion is made of the same depth images)",
     )
-    parser.add_argument("--fps", type=float, default=30.0, help="depth images a second")
-    parser.add_argument("--depth-unit", type=float, default=0.001, help="metres of one depth step")
+    parser.add_argument("--fps", type=above_zero, default=30.0, help="depth images a second")
+    parser.add_argument("--depth-unit", type=above_zero, default=0.001, help="metres of one depth step")
     options = parser.parse_args()
     for pattern, read in FORMATS.items():
         files = sorted(options.source.rglob(pattern))

@@ -130,7 +130,7 @@ TEST(TurnedTrunk, FourViewsSuffice) {
         for (size_t way = 0; way < all.size(); way += 6) views.push_back(all[way]);
         const TurnedTrunk trunk(views, 0.0f);
         for (const int level : {4, 10, 16})
-            EXPECT_NEAR(trunk.girth_m(TrunkProfile::along(level)), form.girth_m(level), 0.01f) << level;
+            EXPECT_NEAR(trunk.girth_m(TrunkProfile::along(level)), form.girth_m(level), 0.004f) << level;
     }
 }
 
@@ -139,13 +139,15 @@ TEST(TurnedTrunk, AnOutlineThatNoReadingSupportsMakesNoSpike) {
     const std::vector<TrunkView> all = turn_of(form);
     std::vector<TrunkView> views = {all[0], all[6], all[12], all[18]};
     constexpr size_t kLevel = 10;
-    for (TrunkView& view : views)  // readings of the middle alone, and one outline of a sleeve
+    for (TrunkView& view : views) {  // readings of the middle alone, and one outline, of a sleeve
         for (size_t column = 0; column < size_t(TrunkView::kColumns); ++column)
-            if (column < 27 || column > 32) view.towards_m[kLevel][column] = std::nanf("");
-    for (TrunkView& view : views) view.reach_m[kLevel].fill(std::nanf(""));
-    views[0].reach_m[kLevel][TrunkView::kRightOfPicture] = 0.40f;
-    const float girth = TurnedTrunk(views, 0.0f).girth_m(TrunkProfile::along(int(kLevel)));
-    EXPECT_LT(girth, form.girth_m(int(kLevel)) + 0.05f);
+            if (column < 22 || column > 37) view.towards_m[kLevel][column] = std::nanf("");
+        view.reach_m[kLevel].fill(std::nanf(""));
+    }
+    views[0].reach_m[kLevel][TrunkView::kRightOfPicture] = 0.30f;
+    EXPECT_NEAR(TurnedTrunk(views, 0.0f).girth_m(TrunkProfile::along(int(kLevel))), form.girth_m(int(kLevel)),
+                0.02f)
+        << "0.15 m more where radii are not held to their neighbours";
 }
 
 TEST(TurnedTrunk, StrayReadingsHardlyCount) {
