@@ -560,6 +560,19 @@ VFIT_API vfit_result vfit_tracker_submit(vfit_tracker tracker, vfit_frame frame,
  * VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of them is taken. [excl] */
 VFIT_API vfit_result vfit_tracker_hint(vfit_tracker tracker, const vfit_joint_hint* items, uint32_t stride,
                                        uint32_t count);
+/* For the next update alone: a person as another camera saw them at most about 50 ms ago, which says whether
+ * they face this one: front and back look alike in depth. What single frames of all cameras say is weighed, a
+ * body of a source or the host being sure. position and rotation (x, y, z, w): the other camera's world space
+ * in this one's (vfit_world_align); within 0.3 m at the person and 20 degrees is good enough. A second call
+ * adds another person or camera. Does nothing where the joints are the source's. [excl] */
+VFIT_API vfit_result vfit_tracker_hint_from(vfit_tracker tracker, vfit_frame seen, uint32_t body_id,
+                                            const float position[3], const float rotation[4]);
+/* Where another camera's world space lies in this one's, from count points (3 floats each) that both saw at
+ * the same times, as joints of a person who walks about: MIDDLE joints, so that nothing hangs on left and
+ * right. Both worlds have the same up. Single points that are wrong hardly count. rms (may be null) is what
+ * is left between them. Fewer than 8 points, or all within 0.3 m: VFIT_ERROR_DATA. [any] */
+VFIT_API vfit_result vfit_world_align(vfit_context context, const float* here, const float* there,
+                                      uint32_t count, float position[3], float rotation[4], float* rms);
 /* Forgets people, room and choice. [excl] */
 VFIT_API vfit_result vfit_tracker_reset(vfit_tracker tracker);
 /* From the next update or submit on that person is the active one, whatever the rule; 0: by the rule again.
@@ -594,7 +607,8 @@ enum {
     VFIT_GUIDANCE_JOINTS_MISSING = 9,
     VFIT_GUIDANCE_FACE_CAMERA = 10,
     VFIT_GUIDANCE_TURN_ROUND = 11, /* go on turning: that way has been seen */
-    VFIT_GUIDANCE_TURN_SLOWER = 12
+    VFIT_GUIDANCE_TURN_SLOWER = 12,
+    VFIT_GUIDANCE_ARMS_FORWARD = 13 /* from the side an arm hides the trunk */
 };
 enum {
     VFIT_SCAN_BARE = 1,  /* bits of flags. Bare feet and no hair on the crown: otherwise the deviation
@@ -613,6 +627,10 @@ typedef struct vfit_scan_desc {
     uint32_t side_frame_count; /* of FIT: frames from the side, 15 are enough; 0: none
                                 * are waited for */
     uint32_t flags;            /* VFIT_SCAN_* */
+    /* Of FIT: cameras that see the person at once (vfit_scan_add_from), at most 8; 0: one. Where three or
+     * more show the person all around, or from before, behind and one side, girths of the trunk from the
+     * surface that they see together are combined with those of the other views. Not with VFIT_SCAN_TURN. */
+    uint32_t camera_count;
 } vfit_scan_desc;
 typedef struct vfit_scan_state {
     uint32_t struct_size, frames_taken, frames_wanted;
@@ -718,6 +736,12 @@ VFIT_API vfit_result vfit_scan_extend(vfit_scan scan, uint32_t frames, uint32_t 
  * wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null. [excl] */
 VFIT_API vfit_result vfit_scan_add(vfit_scan scan, vfit_frame tracked, uint32_t body_id,
                                    vfit_scan_state* state);
+/* The same of several cameras, each with a tracker of its own: camera, from 0 on, says which one saw the
+ * frame. First come the frames from the front and the side, from whichever cameras see the person so, then a
+ * few of each camera; turn_seen has the ways that all see. guidance is of this camera: tell the person what
+ * the one says that they are to face. [excl] */
+VFIT_API vfit_result vfit_scan_add_from(vfit_scan scan, uint32_t camera, vfit_frame tracked, uint32_t body_id,
+                                        vfit_scan_state* state);
 /* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE. [read] */
 VFIT_API vfit_result vfit_scan_measure(vfit_scan scan, vfit_measurement* items, uint32_t stride,
                                        uint32_t* count);

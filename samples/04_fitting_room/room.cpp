@@ -33,6 +33,7 @@ const char* guidance_text(vfit_guidance guidance) {
         case VFIT_GUIDANCE_TURN_SIDEWAYS: return "Please turn to the side";
         case VFIT_GUIDANCE_TURN_ROUND: return "Please go on turning";
         case VFIT_GUIDANCE_TURN_SLOWER: return "Please turn more slowly";
+        case VFIT_GUIDANCE_ARMS_FORWARD: return "Please hold your arms forward";
         case VFIT_GUIDANCE_FEET_NOT_VISIBLE: return "Please step back until your feet are in view";
         case VFIT_GUIDANCE_ONE_PERSON_ONLY: return "One at a time, please";
         case VFIT_GUIDANCE_NOBODY: return "Please step before the camera";

@@ -49,6 +49,15 @@ uint32_t contacts_seen(uint32_t contacts, const Axes& axes) {
 
 }  // namespace
 
+Quat rotation_in(const float* rotation, const Axes& axes) {
+    check_pointer(rotation, "rotation");
+    const Quat turn(rotation[3], rotation[0], rotation[1], rotation[2]);
+    const float length = glm::length(turn);
+    if (!(std::abs(length - 1.0f) <= kUnitTolerance))
+        fail(VFIT_ERROR_ARGUMENT, "rotation is no unit quaternion");
+    return axes.rotation_in(turn / length);
+}
+
 vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, uint32_t stride,
                          uint32_t* count) {
     int ids[kJointCount];

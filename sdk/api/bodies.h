@@ -11,6 +11,9 @@
 
 namespace vfit::api {
 
+/// A rotation of the host (x, y, z, w). Fails with VFIT_ERROR_ARGUMENT unless it is a unit quaternion.
+Quat rotation_in(const float* rotation, const Axes& axes);
+
 /// The joints of a body that are seen.
 vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, uint32_t stride,
                          uint32_t* count);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "api/bodies.h"
 #include "api/cloth_object.h"
 #include "api/guard.h"
 #include "api/prop_object.h"
@@ -97,13 +98,9 @@ vfit_result vfit_prop_move(vfit_prop handle, const float position[3], const floa
     return guard([&] {
         Use<PropObject, Mode::exclusive> prop(handle.id);
         check_pointer(position, "position");
-        check_pointer(rotation, "rotation");
         const Axes& axes = prop->context->axes;
         const Vec3 at = checked_point(position, axes, "position", 0);
-        const Quat turn(rotation[3], rotation[0], rotation[1], rotation[2]);
-        const float length = glm::length(turn);
-        if (!(std::abs(length - 1.0f) <= 0.01f)) fail(VFIT_ERROR_ARGUMENT, "rotation is no unit quaternion");
-        prop->prop.move(at, axes.rotation_in(turn / length));
+        prop->prop.move(at, rotation_in(rotation, axes));
         return VFIT_OK;
     });
 }

@@ -1,4 +1,6 @@
 // vfit.h, part "scan -> measurements -> size": the scan.
+#include <algorithm>
+
 #include "api/bodies.h"
 #include "api/guard.h"
 #include "api/measurements.h"
@@ -12,6 +14,7 @@ namespace {
 
 constexpr uint32_t kPaperFrames = 30;  // Alg. 4
 constexpr uint32_t kMaxFrames = 3000;
+constexpr uint32_t kMaxCameras = 8;
 
 /// What the scanned person's avatar will need is made ready before the capture, so that the person does not
 /// wait for it after. A context without a body can still scan; it will be told when it asks for an avatar.
@@ -42,10 +45,16 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
             if (count > kMaxFrames) fail(VFIT_ERROR_ARGUMENT, name, " ", count, " is more than ", kMaxFrames);
         if (d.flags & ~uint32_t{VFIT_SCAN_BARE | VFIT_SCAN_TIGHT | VFIT_SCAN_TURN})
             fail(VFIT_ERROR_ARGUMENT, "flags ", d.flags, ": unknown bits");
+        if (d.camera_count > kMaxCameras)
+            fail(VFIT_ERROR_ARGUMENT, "camera_count ", d.camera_count, " is more than ", kMaxCameras);
+        if (d.camera_count > 1 && (d.flags & VFIT_SCAN_TURN))
+            fail(VFIT_ERROR_ARGUMENT, "camera_count ", d.camera_count,
+                 " with VFIT_SCAN_TURN: a turn is seen by one camera");
         PersonScanDesc settings;
         if (d.method == VFIT_SCAN_PROPORTIONS_AS_PRINTED) settings.paper = ScanDesc::as_printed();
         settings.paper.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
         settings.paper.sex = d.sex;
+        settings.paper.camera_count = std::max(d.camera_count, 1u);
         if (d.method == VFIT_SCAN_FIT || d.method == VFIT_SCAN_DEFAULT) {
             settings.measure_model = context->measure_model();
             settings.fit_model = context->fit_model().get();
@@ -91,8 +100,16 @@ vfit_result vfit_scan_extend(vfit_scan handle, uint32_t frames, uint32_t side_fr
 }
 
 vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id, vfit_scan_state* state) {
+    return vfit_scan_add_from(handle, 0, tracked, body_id, state);
+}
+
+vfit_result vfit_scan_add_from(vfit_scan handle, uint32_t camera, vfit_frame tracked, uint32_t body_id,
+                               vfit_scan_state* state) {
     return guard([&]() -> vfit_result {
         Use<ScanObject, Mode::exclusive> scan(handle.id);
+        if (camera >= scan->scan.camera_count())
+            fail(VFIT_ERROR_ARGUMENT, "camera ", camera, ": the scan was made for ",
+                 scan->scan.camera_count(), ", numbered from 0");
         UseFrame frame(tracked);
         if (state) check_output(state, "state");
         vfit_scan_state out{};
@@ -117,6 +134,7 @@ vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id
             in.image = image;
             in.body = body ? &camera_space : nullptr;
             in.person_count = static_cast<uint32_t>(frame->bodies.size());
+            in.camera = camera;
             const ScanProgress progress = scan->scan.add(in);
             out.frames_taken = progress.frames_taken;
             out.side_frames_taken = scan->scan.side_frames_taken();

@@ -9,6 +9,7 @@
 #include "frame/camera_struct.h"
 #include "frame/depth_check.h"
 #include "frame/floor.h"
+#include "frame/world_align.h"
 #include "track/active_person.h"
 #include "track/match_bodies.h"
 #include "track/perception.h"
@@ -20,6 +21,7 @@ using namespace vfit::api;
 namespace {
 
 constexpr size_t kMaxBodies = Perception::kMaxBodies;  // of one frame
+constexpr float kFarthest_m = 100.0f;                  // another camera
 
 struct TrackerObject : ContextChild {
     static constexpr Kind kKind = Kind::tracker;
@@ -34,6 +36,8 @@ struct TrackerObject : ContextChild {
     vfit_joint_filter filter = VFIT_FILTER_AUTO;
     SteadyBodies steady;           // joints that are not the tracker's own
     std::vector<JointHint> hints;  // for the next update
+    std::vector<Body> elsewhere;   // for it, as other cameras see them, in this one's world space
+    Camera seen_by;                // as the last update knew it
     vfit_track_fit fit = VFIT_FIT_AUTO;
     std::shared_future<std::shared_ptr<const FitModel>> fit_model;
     std::unique_ptr<PeopleFit> fits;  // made for the first person
@@ -67,13 +71,20 @@ struct TrackerObject : ContextChild {
         tracked.base = base;
         tracked.time_ns = base->time_ns;
         place(image.camera);
-        perception().run(image, base->time_ns, own_map ? add_map(image, tracked) : nullptr, hints,
-                         tracked.bodies);
-        tracked.camera = image.camera;
+        bring_from_elsewhere(image.camera);
+        perception().run(image, base->time_ns, own_map ? add_map(image, tracked) : nullptr,
+                         {hints, elsewhere}, tracked.bodies);
+        seen_by = tracked.camera = image.camera;
         if (tracked.bodies.empty()) say_why_absent(tracked);
         in_camera = tracked.bodies;
         for (Body& body : tracked.bodies) body = to_world(body, tracked.camera);
         if (fit != VFIT_FIT_OFF) fit_bodies(image, tracked);
+    }
+    /// Carries them to camera space. The floor of `camera` may be found in this image alone: until then it is
+    /// where the last one had it.
+    void bring_from_elsewhere(const Camera& camera) {
+        const Camera& placed = camera.floor_state < seen_by.floor_state ? seen_by : camera;
+        for (Body& body : elsewhere) body = to_camera(body, placed);
     }
     void say_why_absent(Frame& tracked) {
         static const std::string key = "no_person";
@@ -147,6 +158,14 @@ vfit_track_source check_source(vfit_track_source source, const char* name) {
     if (source < VFIT_TRACK_AUTO || source > VFIT_TRACK_GIVEN)
         fail(VFIT_ERROR_ARGUMENT, "desc.", name, ": unknown track source ", source);
     return source;
+}
+
+WorldPlace place_in(const float* position, const float* rotation, const Axes& axes) {
+    check_pointer(position, "position");
+    const Vec3 at = axes.point_in({position[0], position[1], position[2]});
+    if (!(std::abs(at.x) <= kFarthest_m && std::abs(at.y) <= kFarthest_m && std::abs(at.z) <= kFarthest_m))
+        fail(VFIT_ERROR_ARGUMENT, "position is not finite, or further than ", kFarthest_m, " m away");
+    return {at, rotation_in(rotation, axes)};
 }
 
 void check_hint(const vfit_joint_hint& hint) {
@@ -251,6 +270,8 @@ vfit_result vfit_tracker_reset(vfit_tracker handle) {
         tracker->active.reset();
         tracker->steady.reset();
         tracker->hints.clear();
+        tracker->elsewhere.clear();
+        tracker->seen_by = Camera{};
         return VFIT_OK;
     });
 }
@@ -279,6 +300,7 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
             tracker->see(frame.ref(), *out);
         }
         tracker->hints.clear();
+        tracker->elsewhere.clear();
         tracker->choose_active(*out);
         tracked->id = tracker->context->publish(Kind::frame, out);
         return VFIT_OK;
@@ -298,6 +320,50 @@ vfit_result vfit_tracker_hint(vfit_tracker handle, const vfit_joint_hint* items,
             const vfit_joint_hint h = given[i];
             tracker->hints.push_back({h.joint, h.x, h.y, h.confidence, h.body_id});
         }
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_tracker_hint_from(vfit_tracker handle, vfit_frame seen, uint32_t body_id,
+                                   const float position[3], const float rotation[4]) {
+    return guard([&] {
+        Use<TrackerObject, Mode::exclusive> tracker(handle.id);
+        UseFrame frame(seen);
+        require_same_context(*tracker, frame);
+        const WorldPlace place = place_in(position, rotation, tracker->context->axes);
+        const Body* const body = frame->body(body_id);
+        if (!body) fail(VFIT_ERROR_ARGUMENT, "the frame has no body ", body_id);
+        if (tracker->elsewhere.size() == kMaxBodies)
+            fail(VFIT_ERROR_CAPACITY, "at most ", kMaxBodies, " people of other cameras");
+        tracker->elsewhere.push_back(*body);
+        for (Joint& joint : tracker->elsewhere.back().joints) joint.position = place.point(joint.position);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_world_align(vfit_context handle, const float* here, const float* there, uint32_t count,
+                             float position[3], float rotation[4], float* rms) {
+    return guard([&] {
+        UseContext<Mode::any> context(handle);
+        check_pointer(here, "here");
+        check_pointer(there, "there");
+        check_pointer(position, "position");
+        check_pointer(rotation, "rotation");
+        if (count > kMaxItems) fail(VFIT_ERROR_ARGUMENT, "count ", count, " is more than ", kMaxItems);
+        const Axes& axes = context->axes;
+        std::vector<Vec3> points[2];
+        for (uint32_t i = 0; i < count; ++i) {
+            points[0].push_back(axes.point_in({here[3 * i], here[3 * i + 1], here[3 * i + 2]}));
+            points[1].push_back(axes.point_in({there[3 * i], there[3 * i + 1], there[3 * i + 2]}));
+        }
+        float rms_m = 0.0f;
+        const WorldPlace place = align_worlds(points[0], points[1], rms_m);
+        const Vec3 at = axes.point_out(place.position);
+        const Quat turn = axes.rotation_out(place.rotation);
+        for (int k = 0; k < 3; ++k) position[k] = at[k];
+        const float parts[] = {turn.x, turn.y, turn.z, turn.w};
+        std::copy_n(parts, 4, rotation);
+        if (rms) *rms = axes.length_out(rms_m);
         return VFIT_OK;
     });
 }

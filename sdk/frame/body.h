@@ -23,10 +23,15 @@ struct Joint {
     bool seen() const { return state != VFIT_JOINT_NOT_SEEN; }
 };
 
+inline constexpr float kSureFacing = 3.0f;
+
 struct Body {
     uint32_t id = 0;
     int64_t time_ns = 0;
-    uint32_t flags = 0;                       // VFIT_BODY_*
+    uint32_t flags = 0;  // VFIT_BODY_*
+    // What its frame alone says for the way that the person faces here against the opposite one; logit. Who
+    // sees no heat maps is taken at their word.
+    float facing_logit = kSureFacing;
     std::array<Joint, kJointCount> joints{};  // by id
 
     bool has(int joint) const { return joints[static_cast<size_t>(joint)].seen(); }

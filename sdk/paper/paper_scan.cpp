@@ -20,17 +20,31 @@ struct FrameValues {
     std::array<float, kPaperJointCount> radii;
 };
 
+/// What is kept of a camera from frame to frame.
+struct CameraView {
+    DepthFilter filter;
+    FilteredDepth depth;  // the filter's last answer
+    Body last;
+    bool has_last = false;
+
+    void reset() {
+        wipe(last);
+        has_last = false;
+        depth = FilteredDepth{};
+        filter.wipe();
+    }
+};
+
 }  // namespace
 
 struct PaperScan::State {
-    explicit State(const ScanDesc& d) : desc(d), wanted(d.frame_count) { frames.reserve(wanted); }
+    explicit State(const ScanDesc& d) : desc(d), wanted(d.frame_count), views(d.camera_count) {
+        frames.reserve(wanted);
+    }
     const ScanDesc desc;
     uint32_t wanted;  // frames; more than desc's where the scan was extended
-    DepthFilter filter;
-    FilteredDepth depth;  // the filter's last answer
     std::vector<FrameValues> frames;
-    Body last;
-    bool has_last = false;
+    std::vector<CameraView> views;
 
     void require_frames() const {
         if (frames.empty()) fail(VFIT_ERROR_STATE, "scan: no frame has been taken yet");
@@ -73,6 +87,7 @@ PaperScan::PaperScan(const ScanDesc& desc) {
     constexpr uint32_t kMostFrames = 3600;  // two minutes at 30 Hz
     if (desc.frame_count == 0 || desc.frame_count > kMostFrames)
         fail(VFIT_ERROR_ARGUMENT, "scan: frame_count ", desc.frame_count, " is not in 1 to ", kMostFrames);
+    if (desc.camera_count == 0) fail(VFIT_ERROR_ARGUMENT, "scan: no camera");
     if (desc.sex < VFIT_SEX_UNKNOWN || desc.sex > VFIT_SEX_MALE)
         fail(VFIT_ERROR_ARGUMENT, "scan: unknown sex ", desc.sex);
     state_ = std::make_unique<State>(desc);
@@ -84,10 +99,7 @@ void PaperScan::reset() {
     for (FrameValues& f : state_->frames) wipe(f);
     state_->frames.clear();
     state_->wanted = state_->desc.frame_count;
-    wipe(state_->last);
-    state_->has_last = false;
-    state_->depth = FilteredDepth{};
-    state_->filter.wipe();
+    for (CameraView& view : state_->views) view.reset();
 }
 
 void PaperScan::extend(uint32_t frames) {
@@ -103,26 +115,26 @@ uint32_t PaperScan::frames_taken() const { return uint32_t(state_->frames.size()
 uint32_t PaperScan::frames_wanted() const { return state_->wanted; }
 
 ScanProgress PaperScan::look(const ScanFrame& frame) {
-    State& state = *state_;
+    CameraView& view = state_->views.at(frame.camera);
     ScanProgress progress;
     progress.frames_taken = frames_taken();
     const Stopwatch watch;
-    state.depth = state.filter.run(frame.image, frame.body ? frame.body->id : 0);
-    progress.correction_m = state.depth.correction_m;
-    const bool same_person = state.has_last && frame.body && state.last.id == frame.body->id;
-    progress.guidance = check_frame(state.depth, frame.image.camera, frame.body,
-                                    same_person ? &state.last : nullptr, frame.person_count);
-    state.has_last = frame.body != nullptr;
-    if (frame.body) state.last = *frame.body;
+    view.depth = view.filter.run(frame.image, frame.body ? frame.body->id : 0);
+    progress.correction_m = view.depth.correction_m;
+    const bool same_person = view.has_last && frame.body && view.last.id == frame.body->id;
+    progress.guidance = check_frame(view.depth, frame.image.camera, frame.body,
+                                    same_person ? &view.last : nullptr, frame.person_count);
+    view.has_last = frame.body != nullptr;
+    if (frame.body) view.last = *frame.body;
     progress.compute_ms = watch.ms();
     return progress;
 }
 
 void PaperScan::take(const ScanFrame& frame) {
-    State& state = *state_;
+    const FilteredDepth& depth = state_->views.at(frame.camera).depth;
     const Camera& camera = frame.image.camera;
-    state.frames.push_back(
-        {measure_lines(state.depth, camera, *frame.body), fit_spheres(state.depth, camera, *frame.body)});
+    state_->frames.push_back(
+        {measure_lines(depth, camera, *frame.body), fit_spheres(depth, camera, *frame.body)});
 }
 
 ScanProgress PaperScan::add(const ScanFrame& frame) {

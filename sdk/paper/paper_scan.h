@@ -28,6 +28,7 @@ struct ScanDesc {
     RatioTable ratios = RatioTable::kAnthropometric;
     Combination combination = Combination::kInverseVariance;
     Outliers outliers = Outliers::kLeaveOut;
+    uint32_t camera_count = 1;  // that see the person at once
     static ScanDesc as_printed() {
         ScanDesc desc;
         desc.ratios = RatioTable::kCanon;
@@ -41,6 +42,7 @@ struct ScanFrame {
     DepthImage image;
     const Body* body = nullptr;  // joints in camera space; null: nobody is tracked
     uint32_t person_count = 1;
+    uint32_t camera = 0;  // which one of several
 };
 
 struct ScanProgress {
@@ -63,7 +65,7 @@ public:
     /// Ignores frames once the scan is complete. Does not allocate after the first frame of a size.
     ScanProgress add(const ScanFrame& frame);
     /// The two halves of add(), for who has more to ask of a frame: whether it is good, and that it is kept
-    /// (the one that was looked at last, which must live still).
+    /// (the one that was looked at last, which must live still). Frames of one camera follow each other.
     ScanProgress look(const ScanFrame& frame);
     void take(const ScanFrame& frame);
     /// Forgets the person, and what extend() added.

@@ -1,5 +1,6 @@
 #include "scan/person_scan.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/clock.h"
@@ -13,11 +14,12 @@ namespace {
 // Deviation of what hair and shoes add, where nobody says that there are none: 0 to 5 cm, evenly.
 constexpr float kHairAndShoes_m = 0.015f;
 constexpr float kJointsSlack_rad = 0.1f;  // joints tell less well than the fitted body how somebody stands
-// From a hand to the hip joint of its side, across: nearer, and the arm hides the trunk's outline.
+// From a hand to the hip joint of its side, across or ahead: nearer, and the arm hides the trunk's outline.
 constexpr float kArmsOut_m = 0.14f;
-constexpr float kFastestTurn = 2.6f;   // radians a second; at a pace of 8 s a turn small steps reach 1.6
-constexpr float kSpeedOver_s = 0.2f;   // a fitted body's direction wavers by some degrees
-constexpr uint32_t kFramesOfWay = 15;  // of a turn: the person stands still
+constexpr float kFastestTurn = 2.6f;    // radians a second; at a pace of 8 s a turn small steps reach 1.6
+constexpr float kSpeedOver_s = 0.2f;    // a fitted body's direction wavers by some degrees
+constexpr uint32_t kFramesOfWay = 15;   // of a turn: the person stands still
+constexpr uint32_t kViewsOfCamera = 3;  // more tell nothing new
 
 /// By the joints, before the body is fitted.
 ViewKind view_of(const Camera& camera, const Body& body) {
@@ -43,6 +45,16 @@ bool arms_out(const Body& body) {
     return true;
 }
 
+/// Of the arm on the camera's side, for a side view: the other one is behind the trunk.
+bool arm_ahead(const Camera& camera, const Body& body) {
+    const Vec3 left = body.at(VFIT_JOINT_LEFT_HIP) - body.at(VFIT_JOINT_RIGHT_HIP);
+    const Vec3 ahead = glm::normalize(glm::cross(left, camera.floor_normal));
+    const bool left_is_near = left.z < 0.0f;
+    const int hand = left_is_near ? VFIT_JOINT_LEFT_HAND : VFIT_JOINT_RIGHT_HAND;
+    const int hip = left_is_near ? VFIT_JOINT_LEFT_HIP : VFIT_JOINT_RIGHT_HIP;
+    return !body.has(hand) || glm::dot(ahead, body.at(hand) - body.at(hip)) >= kArmsOut_m;
+}
+
 /// A measure that is known to be larger than a bound: the upper part of its normal distribution.
 Measurement above(Measurement m, float bound) {
     const double from = double(bound - m.value) / double(m.sigma);
@@ -58,7 +70,8 @@ Measurement above(Measurement m, float bound) {
 
 }  // namespace
 
-PersonScan::PersonScan(const PersonScanDesc& desc) : desc_(desc), paper_(desc.paper) {
+PersonScan::PersonScan(const PersonScanDesc& desc)
+    : desc_(desc), paper_(desc.paper), views_of_camera_(desc.paper.camera_count) {
     if (desc.fit_model && desc.measure_model) body_ = std::make_unique<BodyScan>(desc.fit_model);
 }
 
@@ -67,6 +80,7 @@ void PersonScan::reset() {
     if (body_) body_->reset();
     side_frames_ = more_side_frames_ = 0;
     ring_.reset();
+    std::fill(views_of_camera_.begin(), views_of_camera_.end(), 0u);
     forget(before_turn_), forget(turned_);
     turned_views_ = 0;
     turned_rad_ = 0.0f, turned_ns_ = 0, fast_ = false;
@@ -110,14 +124,36 @@ vfit_guidance PersonScan::turn(const ScanFrame& frame) {
     return VFIT_GUIDANCE_NONE;
 }
 
+bool PersonScan::all_cameras_seen() const {
+    return !several_cameras() || !body_ ||
+           std::all_of(views_of_camera_.begin(), views_of_camera_.end(),
+                       [](uint32_t views) { return views >= kViewsOfCamera; });
+}
+
+vfit_guidance PersonScan::look_around(const ScanFrame& frame) {
+    if (views_of_camera_[frame.camera] >= kViewsOfCamera) return VFIT_GUIDANCE_HOLD_STILL;  // for the others
+    if (!arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
+    if (!before_turn_) before_turn_ = body_->features(with_side());
+    const auto turned = body_->fit_turning(frame.image, *frame.body);
+    if (!turned) return VFIT_GUIDANCE_HOLD_STILL;
+    body_->keep_turning(frame.image, *frame.body);
+    ring_.add(TurnRing::way_of(*turned));
+    ++views_of_camera_[frame.camera];
+    return VFIT_GUIDANCE_NONE;
+}
+
 vfit_guidance PersonScan::fit(const ScanFrame& frame) {
-    if (desc_.turn && paper_.complete() && side_frames_ >= side_frames_wanted()) return turn(frame);
+    const bool side_done = side_frames_ >= side_frames_wanted();
+    if (desc_.turn && paper_.complete() && side_done) return turn(frame);
     const ViewKind seen = view_of(frame.image.camera, *frame.body);
     const bool front = seen == ViewKind::kFront, side = seen == ViewKind::kSide;
+    // Where no camera sees the side, none is waited for.
+    if (several_cameras() && paper_.complete() && (side_done || !side)) return look_around(frame);
     if (paper_.complete() ? !side : !front && !side)
         return paper_.complete() ? VFIT_GUIDANCE_TURN_SIDEWAYS : VFIT_GUIDANCE_FACE_CAMERA;
-    if (side && side_frames_ >= side_frames_wanted()) return VFIT_GUIDANCE_FACE_CAMERA;
+    if (side && side_done) return VFIT_GUIDANCE_FACE_CAMERA;
     if (front && !arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
+    if (side && !arm_ahead(frame.image.camera, *frame.body)) return VFIT_GUIDANCE_ARMS_FORWARD;
     if (body_->add(frame.image, *frame.body) != seen) return VFIT_GUIDANCE_HOLD_STILL;
     forget(before_turn_);  // extend() asked for more after a turn
     if (front)
@@ -128,9 +164,10 @@ vfit_guidance PersonScan::fit(const ScanFrame& frame) {
 }
 
 const SeenOfTurn* PersonScan::seen_of_turn() const {
-    if (!ring_.closed()) return nullptr;
+    if (!(several_cameras() ? ring_.surrounded() : ring_.closed())) return nullptr;
     if (turned_views_ != body_->views_of_turn()) {
-        turned_.emplace(body_->turned_trunk(), ring_.doubt());
+        turned_.emplace(body_->turned_trunk(),
+                        several_cameras() ? ring_.doubt_between_cameras() : ring_.doubt());
         turned_views_ = body_->views_of_turn();
     }
     return &*turned_;

@@ -20,6 +20,7 @@ struct PersonScanDesc {
     bool bare = false;   // no shoes and no hair: stature needs no allowance
     bool tight = false;  // clothes lie on the skin
     bool turn = false;   // of the fitted body, after the other frames: once round on the spot
+    // paper.camera_count above 1: of the fitted body, after the other frames a few of each camera.
 };
 
 struct InferredSex {
@@ -51,9 +52,10 @@ public:
     /// Ways that the person has been seen to face in the turn, and those that are wanted: a bit each.
     uint32_t turn_seen() const { return ring_.seen(); }
     uint32_t turn_wanted() const { return body_ && desc_.turn ? TurnRing::kAll : 0; }
+    uint32_t camera_count() const { return uint32_t(views_of_camera_.size()); }
     bool complete() const {
         return paper_.complete() && side_frames_ >= side_frames_wanted() &&
-               (turn_wanted() == 0 || ring_.complete());
+               (turn_wanted() == 0 || ring_.complete()) && all_cameras_seen();
     }
 
     /// No frame from the front yet: VFIT_ERROR_STATE.
@@ -73,6 +75,9 @@ private:
     /// What is wrong with the frame for the body fit; it is kept where nothing is.
     vfit_guidance fit(const ScanFrame& frame);
     vfit_guidance turn(const ScanFrame& frame);
+    vfit_guidance look_around(const ScanFrame& frame);
+    bool several_cameras() const { return views_of_camera_.size() > 1; }
+    bool all_cameras_seen() const;
     /// Null where they do not close.
     const SeenOfTurn* seen_of_turn() const;
 
@@ -81,6 +86,7 @@ private:
     std::unique_ptr<BodyScan> body_;
     uint32_t side_frames_ = 0, more_side_frames_ = 0;
     TurnRing ring_;
+    std::vector<uint32_t> views_of_camera_;
     // Of the views before the turn: the body goes on being fitted to all of it, and measures have not learnt
     // what that does to its shape.
     std::optional<ScanFeatures> before_turn_;

@@ -47,6 +47,24 @@ public:
         constexpr int kQuarter = kWays / 4 + 1;
         return widest_gap() > kQuarter ? kUnseenSide : 1.0f;
     }
+    /// The same of cameras that stand still around a person: front, back and one side at least are faced by
+    /// one within 60 degrees.
+    bool surrounded() const {
+        constexpr int kReach = kWays / 6, kHalf = kWays / 8, kEnough = kWays * 7 / 8;
+        uint32_t faced = 0;
+        for (int way = 0; way < kWays; ++way)
+            for (int off = -kReach; off <= kReach; ++off)
+                if (frames((way + off + kWays) % kWays)) faced |= uint32_t{1} << way;
+        uint32_t front_and_back = 0;
+        for (int off = -kHalf; off <= kHalf; ++off)
+            front_and_back |= uint32_t{1} << (kWays + off) % kWays | uint32_t{1} << (kWays / 2 + off);
+        return std::popcount(faced) >= kEnough && (faced & front_and_back) == front_and_back;
+    }
+    float doubt_between_cameras() const {
+        constexpr float kUnseenSide = 1.6f, kApart = 1.3f;
+        constexpr int kThird = kWays / 3 + 1;
+        return widest_gap() > kThird ? kUnseenSide : kApart;
+    }
     void reset() { frames_ = {}; }
 
 private:

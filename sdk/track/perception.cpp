@@ -91,7 +91,7 @@ bool Perception::rejoin_parts(const DepthImage& image) {
     return rejoined;
 }
 
-bool Perception::look(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
+bool Perception::look(DepthImage& image, int64_t time_ns, uint8_t* map, const Evidence& evidence,
                       std::vector<Body>& bodies) {
     const Camera unknown = image.camera;
     find_people(image, time_ns, map);
@@ -99,7 +99,7 @@ bool Perception::look(DepthImage& image, int64_t time_ns, uint8_t* map, std::spa
         image.camera = unknown;
         find_people(image, time_ns, map);
     }
-    tracker_->run(image, time_ns, targets_, bodies, hints);
+    tracker_->run(image, time_ns, targets_, bodies, evidence);
     if (map)
         for (const TrackTarget& target : targets_)
             if (tracker_->surely_no_person(target.id) || target.lifeless_s > kThing_s)
@@ -107,11 +107,11 @@ bool Perception::look(DepthImage& image, int64_t time_ns, uint8_t* map, std::spa
     return !bodies.empty();
 }
 
-void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
+void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, const Evidence& evidence,
                      std::vector<Body>& bodies) {
     if (!tracker_) tracker_ = std::make_unique<Tracker>(load_(), steady_);
     if (image.camera.floor_state != VFIT_FLOOR_DEFAULT) {  // up is known
-        look(image, time_ns, map, hints, bodies);
+        look(image, time_ns, map, evidence, bodies);
         return;
     }
     const Camera unknown = image.camera;
@@ -124,7 +124,7 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
         image.camera = unknown;
         level_.place(image.camera);
         const Vec3 up = level_.up();
-        found = look(image, time_ns, map, hints, bodies) && stands_upright(image, surest(bodies));
+        found = look(image, time_ns, map, evidence, bodies) && stands_upright(image, surest(bodies));
         if (tries == 0) first = image.camera;
         // What rests without life was seen well enough to be doubted: no other way up shows it better.
         const bool things = std::any_of(targets_.begin(), targets_.end(),

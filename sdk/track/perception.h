@@ -26,7 +26,7 @@ public:
 
     /// Bodies of the image, in camera space. `map`: written with the people that are found; null: image.users
     /// is taken. Sets image.users and the floor of image.camera, unless that is VFIT_FLOOR_GIVEN.
-    void run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
+    void run(DepthImage& image, int64_t time_ns, uint8_t* map, const Evidence& evidence,
              std::vector<Body>& bodies);
     /// The user map alone, for bodies that another tracker has found.
     std::span<const PersonRegion> map_people(const DepthImage& image, int64_t time_ns, uint8_t* map);
@@ -40,7 +40,7 @@ private:
     bool rejoin_parts(const DepthImage& image);
     void find_people(DepthImage& image, int64_t time_ns, uint8_t* map);
     /// Looks for people who stand as image.camera says.
-    bool look(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
+    bool look(DepthImage& image, int64_t time_ns, uint8_t* map, const Evidence& evidence,
               std::vector<Body>& bodies);
     const Body& surest(std::span<const Body> bodies) const;
     bool stands_upright(const DepthImage& image, const Body& body);

@@ -18,6 +18,8 @@ constexpr float kWeight = 0.35f;      // of the network's answer: those of frame
 constexpr float kAnswerLimit = 3.0f;  // one frame's logit counts no more
 constexpr float kLegs = 3.0f;         // logit of toes that point straight behind
 constexpr float kSeenFoot = 0.15f;    // confidence
+// Between a person's places by two cameras: people who touch stand farther apart.
+constexpr float kSamePlace_m = 0.4f;
 
 /// The first cell whose middle may lie within `reach` of `place`, and the one after the last.
 std::pair<int, int> cells_within(float place, float reach) {
@@ -30,6 +32,23 @@ void exchange_sides(SeenJoints& joints) {
     for (int j = 0; j < kJointCount; ++j)
         if (const int other = mirrored_joint(j); other > j)
             std::swap(joints[size_t(j)], joints[size_t(other)]);
+}
+
+constexpr int kOfTrunk[] = {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_LEFT_HIP,
+                            VFIT_JOINT_RIGHT_HIP};
+
+/// Towards the left of a trunk; `at`: where a joint is.
+template <typename At>
+Vec3 left_of(const At& at) {
+    return at(VFIT_JOINT_LEFT_SHOULDER) - at(VFIT_JOINT_RIGHT_SHOULDER) + at(VFIT_JOINT_LEFT_HIP) -
+           at(VFIT_JOINT_RIGHT_HIP);
+}
+
+template <typename At>
+Vec3 middle_of(const At& at) {
+    Vec3 sum(0.0f);
+    for (const int joint : kOfTrunk) sum += at(joint);
+    return sum / float(std::size(kOfTrunk));
 }
 
 float probability_of(float log_odds) { return 1.0f / (1.0f + std::exp(-log_odds)); }
@@ -48,8 +67,7 @@ float distance_between(const SeenJoints& a, const SeenJoints& b) {
 /// knees bend back alone.
 float legs_agree(const SeenJoints& joints, const Vec3& up) {
     const auto at = [&](int joint) { return joints[size_t(joint)].position; };
-    const Vec3 left = at(VFIT_JOINT_LEFT_SHOULDER) - at(VFIT_JOINT_RIGHT_SHOULDER) + at(VFIT_JOINT_LEFT_HIP) -
-                      at(VFIT_JOINT_RIGHT_HIP);
+    const Vec3 left = left_of(at);
     float said = 0.0f, most = 0.0f;
     const auto leg = [&](int hip, int knee, int foot, int toes) {
         const auto seen = [&](int joint) { return joints[size_t(joint)].confidence > kSeenFoot; };
@@ -71,6 +89,23 @@ float legs_agree(const SeenJoints& joints, const Vec3& up) {
     leg(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES);
     most = std::max(most, glm::length(left));
     return most > 1e-6f ? std::clamp(said / most, -1.0f, 1.0f) : 0.0f;
+}
+
+/// What frames of other cameras say for that the person faces away; logit. Evidence goes from camera to
+/// camera, not decisions: these would come back as their own echo.
+float away_by_others(std::span<const Body> elsewhere, const SeenJoints& joints) {
+    const auto seen = [&](int joint) { return joints[size_t(joint)].position; };
+    const Vec3 left = left_of(seen), middle = middle_of(seen);
+    float said = 0.0f;
+    for (const Body& body : elsewhere) {
+        const auto at = [&](int joint) { return body.at(joint); };
+        const bool whole =
+            std::all_of(std::begin(kOfTrunk), std::end(kOfTrunk), [&](int joint) { return body.has(joint); });
+        if (!whole || glm::distance(middle_of(at), middle) > kSamePlace_m) continue;
+        const Vec3 other = left_of(at);
+        said -= body.facing_logit * glm::dot(left, other) / (glm::length(left) * glm::length(other) + 1e-6f);
+    }
+    return said;
 }
 
 }  // namespace
@@ -114,7 +149,7 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
     }
 }
 
-void Facing::apply(float away_logit, const Vec3& up, SeenJoints& joints) {
+void Facing::apply(float away_logit, const Vec3& up, SeenJoints& joints, std::span<const Body> elsewhere) {
     const float legs = -kLegs * legs_agree(joints, up);
     if (known_) {
         SeenJoints other = joints;
@@ -128,8 +163,9 @@ void Facing::apply(float away_logit, const Vec3& up, SeenJoints& joints) {
         log_odds_ = std::log(is / (1.0f - is));
     }
     known_ = true;
-    log_odds_ += kWeight * legs;
-    if (!std::isnan(away_logit)) log_odds_ += kWeight * std::clamp(away_logit, -kAnswerLimit, kAnswerLimit);
+    said_ = legs;
+    if (!std::isnan(away_logit)) said_ += std::clamp(away_logit, -kAnswerLimit, kAnswerLimit);
+    log_odds_ += kWeight * (said_ + away_by_others(elsewhere, joints));
     last_ = joints;
     if (away()) exchange_sides(joints);
 }

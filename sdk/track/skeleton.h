@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "frame/body.h"
 #include "track/crop.h"
@@ -30,7 +31,11 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
 class Facing {
 public:
     /// Exchanges left and right in `joints` where the person faces away. up: in the joints' space.
-    void apply(float away_logit, const Vec3& up, SeenJoints& joints);
+    /// `elsewhere`: people as other cameras see them, in that space too; of them the person is who stands at
+    /// the place.
+    void apply(float away_logit, const Vec3& up, SeenJoints& joints, std::span<const Body> elsewhere = {});
+    /// What the last frame alone says for the decision as it stands; logit.
+    float agreement() const { return away() ? said_ : -said_; }
     bool away() const { return log_odds_ > 0.0f; }
     /// The decision as it stands; of somebody new what the network says.
     bool away(float away_logit) const { return known_ ? away() : away_logit > 0.0f; }
@@ -38,6 +43,7 @@ public:
 private:
     bool known_ = false;
     float log_odds_ = 0.0f;  // that the person faces away
+    float said_ = 0.0f;      // the same by the last frame of this camera alone
     SeenJoints last_{};      // as if they faced the sensor
 };
 

@@ -51,16 +51,17 @@ void find_targets(const DepthImage& image, size_t most, std::vector<TrackTarget>
 }
 
 void Tracker::run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets,
-                  std::vector<Body>& out, std::span<const JointHint> hints) {
+                  std::vector<Body>& out, const Evidence& evidence) {
     out.clear();
-    give_hints(image, targets, hints);
+    give_hints(image, targets, evidence.hints);
     std::erase_if(people_, [&](const auto& entry) {
         return time_ns < entry.second.seen_ns || seconds_between(entry.second.seen_ns, time_ns) > kForget_s;
     });
     const Vec2 up = image_up(image.camera.floor_normal);
     for (const TrackTarget& target : targets) {
         Body body;
-        if (see(image, time_ns, target, up, people_[target.id], body)) out.push_back(body);
+        if (see(image, time_ns, target, up, evidence.elsewhere, people_[target.id], body))
+            out.push_back(body);
     }
 }
 
@@ -118,7 +119,7 @@ bool Tracker::surely_no_person(uint32_t id) const {
 }
 
 bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up,
-                  Person& person, Body& out) {
+                  std::span<const Body> elsewhere, Person& person, Body& out) {
     crop_.resize(size_t(CropView::kPixels) * CropView::kPixels);
     CropView view;
     if (!cropper_.run(image, uint8_t(target.id), target.box, up, view, crop_.data())) return false;
@@ -132,7 +133,7 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     apply_hints(hints_of_one_, view, person.facing.away(maps_.away), maps_);
     SeenJoints joints;
     read_maps(maps_, view, image.camera, joints);
-    person.facing.apply(maps_.away, image.camera.floor_normal, joints);
+    person.facing.apply(maps_.away, image.camera.floor_normal, joints, elsewhere);
     if (steady_) person.steady.run(time_ns, joints);
     person.seen_ns = time_ns;
     ++person.frames;
@@ -142,6 +143,7 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     out.id = target.id;
     out.time_ns = time_ns;
     out.flags = target.flags;
+    out.facing_logit = person.facing.agreement();
     for (int j = 0; j < kJointCount; ++j) {
         const SeenJoint& seen = joints[size_t(j)];
         out.set(j, seen.position, joint_state_of(seen.confidence), seen.confidence);

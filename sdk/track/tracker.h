@@ -27,6 +27,12 @@ struct TrackTarget {
 /// The people of a user map with enough pixels to be tracked, largest first, at most `most`.
 void find_targets(const DepthImage& image, size_t most, std::vector<TrackTarget>& out);
 
+/// What others see of the people of an image.
+struct Evidence {
+    std::span<const JointHint> hints;
+    std::span<const Body> elsewhere;  // by other cameras, in this one's camera space
+};
+
 class Tracker {
 public:
     /// steady: joints are filtered over time.
@@ -36,7 +42,7 @@ public:
     /// Joints of every target that the network takes for a person, in camera space. A person unseen for
     /// kForget_s is forgotten: whoever gets that id then starts afresh.
     void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets,
-             std::vector<Body>& out, std::span<const JointHint> hints = {});
+             std::vector<Body>& out, const Evidence& evidence = {});
     /// What the network says to the target as it is seen with `up`, and with it turned further.
     bool turn(const DepthImage& image, const TrackTarget& target, const Vec3& up, Level::Answers& person);
     /// The network's answer (logit: it is a person) to the target alone; surely not where too little is seen.
@@ -62,7 +68,7 @@ private:
     void give_hints(const DepthImage& image, std::span<const TrackTarget> targets,
                     std::span<const JointHint> hints);
     bool see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up,
-             Person& person, Body& out);
+             std::span<const Body> elsewhere, Person& person, Body& out);
 
     std::shared_ptr<JointNetwork> network_;
     bool steady_;

@@ -184,7 +184,8 @@ OFFSET(vfit_scan_desc, frame_count, 8);
 OFFSET(vfit_scan_desc, sex, 12);
 OFFSET(vfit_scan_desc, side_frame_count, 16);
 OFFSET(vfit_scan_desc, flags, 20);
-SIZE(vfit_scan_desc, 24);
+OFFSET(vfit_scan_desc, camera_count, 24);
+SIZE(vfit_scan_desc, 28);
 
 OFFSET(vfit_scan_state, struct_size, 0);
 OFFSET(vfit_scan_state, frames_taken, 4);

@@ -208,6 +208,33 @@ class Contract(unittest.TestCase):
             stature[method] = result["measurements"]["stature_m"]["value"]
         self.assertGreater(abs(stature["paper"] - stature["paper-as-printed"]), 0.01)
 
+    def test_cameras_that_stand_around_measure_together(self):
+        views = [VIRTUAL.replace("demo", "scan") + f"&facing={way}" for way in (0, 90, 180, 270)]
+        walks = [view.replace("scan", "walk") for view in views]
+        with tempfile.TemporaryDirectory() as folder:
+            places = os.path.join(folder, "places.json")
+            found = document(self, "cameras", *walks, "--out", places, "--frames", "60", "--json")
+            for camera, turned in zip(found["cameras"], (0, -90, 180, 90)):
+                off = (camera["turned_deg"] - turned + 180) % 360 - 180
+                self.assertLess(abs(off), 1.0, found)
+            self.assertTrue(all(pair["rms_m"] < 0.03 for pair in found["of"]), found)
+            others = [word for view in views[1:] for word in ("--camera", view)]
+            given = ["--places", places, "--tight", "--bare", "--frames", "5", "--json"]
+            around = document(self, "measure", views[0], *others, *given)
+            self.assertAlmostEqual(around["turned"], 4 / 24)
+            alone = document(self, "measure", views[0], "--tight", "--bare", "--frames", "5", "--json")
+            sigma = [run["measurements"]["hip_girth_m"]["sigma"] for run in (around, alone)]
+            self.assertLess(sigma[0], sigma[1])
+            self.check_failure(run("measure", views[0], "--camera", views[1], *given), "4 cameras, not 2")
+            standing = run("cameras", *views[:2], "--frames", "20")
+            self.check_failure(standing, "walk about", "facing=90")
+            with open(places, "w") as file:
+                file.write('{"format": "vfit-cameras", "version": 1, "cameras": [{"turned_deg": 1}]}')
+            self.check_failure(run("measure", views[0], *others, *given), places, "position")
+        self.assertEqual(run("cameras", views[0]).returncode, 2)
+        self.assertEqual(run("measure", views[0], "--turn", "--camera", views[1]).returncode, 2)
+        self.assertEqual(run("measure", views[0], "--places", "x").returncode, 2)
+
     def test_a_turn_that_did_not_happen_is_told(self):
         standing = VIRTUAL.replace("demo", "scan")
         asked = document(self, "measure", standing, "--turn", "--frames", "5", "--json")

@@ -143,3 +143,121 @@ TEST_F(HintsTest, BadOnesAreRefusedByNameAndNoneIsTaken) {
     EXPECT_EQ(vfit_tracker_hint(tracker, many.data(), sizeof many[0], 500), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_tracker_hint(tracker, nullptr, 0, 0), VFIT_OK);
 }
+
+namespace {
+
+/// Two virtual cameras that see one person, the second one from another side.
+class OtherCameraTest : public contract::ContextTest {
+protected:
+    vfit_sensor open(const std::string& options) {
+        vfit_sensor sensor{};
+        EXPECT_EQ(vfit_sensor_open(context, ("virtual:" + options).c_str(), &sensor), VFIT_OK);
+        EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK);
+        return sensor;
+    }
+    vfit_tracker tracker() {
+        vfit_tracker_desc desc = vfit_tracker_desc_init();
+        desc.joints = VFIT_TRACK_BUILT_IN;
+        vfit_tracker out{};
+        EXPECT_EQ(vfit_tracker_create(context, &desc, &out), VFIT_OK);
+        return out;
+    }
+    static constexpr float kUnit[4] = {0, 0, 0, 1};
+};
+
+}  // namespace
+
+TEST_F(OtherCameraTest, TellsWhichWayAPersonFaces) {
+    // Three cameras are sure and wrong: the truth of a person who is seen from behind, with left and right
+    // exchanged. Cameras that are believed where they are wrong are believed where they are right.
+    vfit_sensor sensor = open("motion=scan&sex=m&seed=4&facing=180&frames=12");
+    const vfit_tracker alone = tracker(), told = tracker(), other = tracker();
+    vfit_frame frame{}, seen{}, first{}, second{};
+    double across_alone = 0.0, across_told = 0.0;
+    const auto left_of_right = [](vfit_frame tracked) {
+        const auto joints = contract::joints_of(tracked, 1);
+        return double(joints[VFIT_JOINT_LEFT_SHOULDER].position[0] -
+                      joints[VFIT_JOINT_RIGHT_SHOULDER].position[0]);
+    };
+    while (vfit_sensor_acquire(sensor, -1, &frame) == VFIT_OK) {
+        auto joints = contract::joints_of(frame, 1);
+        for (size_t i = 0; i < joints.size(); ++i)
+            joints[i].position[0] = -joints[i].position[0];  // about the person's own middle
+        vfit_body body = vfit_body_init();
+        body.body_id = 9;
+        ASSERT_EQ(vfit_tracker_submit(other, frame, &body, joints.data(), sizeof joints[0],
+                                      uint32_t(joints.size()), &seen),
+                  VFIT_OK)
+            << contract::last_error();
+        const float here[3] = {0, 0, 0};
+        for (int camera = 0; camera < 3; ++camera)
+            ASSERT_EQ(vfit_tracker_hint_from(told, seen, 9, here, kUnit), VFIT_OK) << contract::last_error();
+        ASSERT_EQ(vfit_tracker_update(alone, frame, &first), VFIT_OK);
+        ASSERT_EQ(vfit_tracker_update(told, frame, &second), VFIT_OK);
+        across_alone = left_of_right(first), across_told = left_of_right(second);
+        for (const vfit_frame f : {frame, seen, first, second}) vfit_frame_release(f);
+    }
+    EXPECT_LT(across_alone, -0.2) << "from behind the left is the image's left";
+    EXPECT_GT(across_told, 0.2);
+    for (const vfit_tracker each : {alone, told, other}) EXPECT_EQ(vfit_tracker_destroy(each), VFIT_OK);
+    EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+}
+
+TEST_F(OtherCameraTest, IsFoundByPeopleWhoWalkAbout) {
+    vfit_sensor sensors[2] = {open("motion=walk&seed=3&frames=90"),
+                              open("motion=walk&seed=3&frames=90&facing=90")};
+    std::vector<float> points[2];
+    vfit_frame frames[2]{};
+    while (vfit_sensor_acquire(sensors[0], -1, &frames[0]) == VFIT_OK &&
+           vfit_sensor_acquire(sensors[1], -1, &frames[1]) == VFIT_OK)
+        for (int k = 0; k < 2; ++k) {
+            const float* const p = contract::joints_of(frames[k], 1)[VFIT_JOINT_PELVIS].position;
+            points[k].insert(points[k].end(), p, p + 3);
+            vfit_frame_release(frames[k]);
+        }
+    float position[3], rotation[4], rms = 1.0f;
+    ASSERT_EQ(vfit_world_align(context, points[0].data(), points[1].data(), uint32_t(points[0].size() / 3),
+                               position, rotation, &rms),
+              VFIT_OK)
+        << contract::last_error();
+    // The person has turned to their left before it: it stands to their right.
+    EXPECT_NEAR(2.0f * std::atan2(rotation[1], rotation[3]), -1.5708f, 0.01f);
+    EXPECT_NEAR(position[0], -2.7f, 0.05f);
+    EXPECT_NEAR(position[1], 0.0f, 0.02f);
+    EXPECT_NEAR(position[2], -2.7f, 0.05f);
+    EXPECT_LT(rms, 0.02f);
+    for (const vfit_sensor sensor : sensors) EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+}
+
+TEST_F(OtherCameraTest, BadPlacesAndPeopleAreRefused) {
+    vfit_sensor sensor = open("motion=scan&frames=1");
+    vfit_frame frame{};
+    ASSERT_EQ(vfit_sensor_acquire(sensor, -1, &frame), VFIT_OK);
+    const vfit_tracker own = tracker();
+    const float here[3] = {0, 0, 0}, nowhere[3] = {0, NAN, 0}, far_off[3] = {0, 0, 1e9f},
+                none[4] = {0, 0, 0, 0};
+    EXPECT_EQ(vfit_tracker_hint_from(own, frame, 7, here, kUnit), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(contract::last_error().find("no body 7"), std::string::npos);
+    EXPECT_EQ(vfit_tracker_hint_from(own, frame, 1, nowhere, kUnit), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_tracker_hint_from(own, frame, 1, far_off, kUnit), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_tracker_hint_from(own, frame, 1, here, none), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_tracker_hint_from(own, frame, 1, nullptr, kUnit), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_tracker_hint_from(own, frame, 1, here, nullptr), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_tracker_hint_from(own, {0}, 1, here, kUnit), VFIT_ERROR_HANDLE);
+    for (int i = 0; i < 300; ++i) {
+        const vfit_result result = vfit_tracker_hint_from(own, frame, 1, here, kUnit);
+        EXPECT_TRUE(result == VFIT_OK || result == VFIT_ERROR_CAPACITY) << contract::last_error();
+    }
+    EXPECT_EQ(vfit_tracker_hint_from(own, frame, 1, here, kUnit), VFIT_ERROR_CAPACITY);
+    EXPECT_EQ(vfit_tracker_reset(own), VFIT_OK);
+    EXPECT_EQ(vfit_tracker_hint_from(own, frame, 1, here, kUnit), VFIT_OK);
+    float position[3], rotation[4];
+    EXPECT_EQ(vfit_world_align(context, here, here, 1, position, rotation, nullptr), VFIT_ERROR_DATA);
+    EXPECT_EQ(vfit_world_align(context, nullptr, here, 1, position, rotation, nullptr), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_world_align(context, here, here, 1, nullptr, rotation, nullptr), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_world_align(context, here, here, 1u << 30, position, rotation, nullptr),
+              VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_frame_release(frame), VFIT_OK);
+    EXPECT_EQ(vfit_tracker_destroy(own), VFIT_OK);
+    EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+}

@@ -246,3 +246,48 @@ TEST_F(ScanFitTest, WithoutTheLearntMeasuresItSaysWhatIsMissing) {
     EXPECT_NE(contract::last_error().find("measures.json"), std::string::npos) << contract::last_error();
     EXPECT_EQ(vfit_context_destroy(other), VFIT_OK);
 }
+
+TEST_F(ScanFitTest, SeveralCamerasAreNumbered) {
+    vfit_scan_desc desc = vfit_scan_desc_init();
+    desc.frame_count = 5, desc.flags = VFIT_SCAN_BARE | VFIT_SCAN_TIGHT, desc.camera_count = 9;
+    vfit_scan scan{};
+    EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_ERROR_ARGUMENT);
+    desc.camera_count = 2, desc.flags |= VFIT_SCAN_TURN;
+    EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(contract::last_error().find("turn"), std::string::npos);
+    desc.camera_count = 4, desc.flags &= ~uint32_t(VFIT_SCAN_TURN);
+    ASSERT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_OK);
+    vfit_sensor sensors[4]{};
+    for (int k = 0; k < 4; ++k) {
+        const std::string uri =
+            "virtual:sensor=kinect_v1&motion=scan&sex=f&frames=20&arms=42&facing=" + std::to_string(90 * k);
+        ASSERT_EQ(vfit_sensor_open(context, uri.c_str(), &sensors[k]), VFIT_OK);
+        ASSERT_EQ(vfit_sensor_start(sensors[k]), VFIT_OK);
+    }
+    vfit_result result = VFIT_NOT_READY;
+    vfit_scan_state state = vfit_scan_state_init();
+    std::string truth(4096, '\0');
+    for (bool going = true; going && result != VFIT_OK;)
+        for (uint32_t k = 0; k < 4 && result != VFIT_OK; ++k) {
+            vfit_frame frame{};
+            going = vfit_sensor_acquire(sensors[k], -1, &frame) == VFIT_OK;
+            if (!going) break;
+            EXPECT_EQ(vfit_frame_meta(frame, "measures", truth.data(), uint32_t(truth.size()), nullptr),
+                      VFIT_OK);
+            EXPECT_EQ(vfit_scan_add_from(scan, 4, frame, 1, &state), VFIT_ERROR_ARGUMENT);
+            result = vfit_scan_add_from(scan, k, frame, 1, &state);
+            EXPECT_GE(result, 0) << contract::last_error();
+            EXPECT_EQ(vfit_frame_release(frame), VFIT_OK);
+        }
+    EXPECT_EQ(result, VFIT_OK);
+    EXPECT_EQ(state.turn_wanted, 0u);
+    EXPECT_EQ(std::popcount(state.turn_seen), 4);
+    const Measures found = measures(scan);
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"}) {
+        EXPECT_EQ(found.at(key).observed, 1u) << key;
+        EXPECT_NEAR(found.at(key).value, number(truth, key), std::min(0.04f, 3.0f * found.at(key).sigma))
+            << key;
+    }
+    EXPECT_EQ(vfit_scan_destroy(scan), VFIT_OK);
+    for (const vfit_sensor sensor : sensors) EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+}

@@ -91,6 +91,9 @@ class Writer:
             elif v.type == "float" and v.const and following and following.name == "vertex_count":
                 take("s.points_in()", ["positions", "count"])
                 continue
+            elif v.type == "float" and v.const and following and i + 2 < len(p) and p[i + 2].name == "count":
+                take("s.pairs_in()", ["here", "there", "count"])
+                continue
             elif v.type in self.ranges and v.pointer and following and following.name == "count":
                 take(f"s.plain_list_out<{v.type}>()", ["items", "count"])
                 continue
@@ -118,7 +121,7 @@ class Writer:
             elif v.pointer and v.const and v.type == "float" and v.length:
                 drawn = f"s.vector({v.length})"
             elif v.pointer and not v.const and (v.type in CELLS or v.type in self.ranges):
-                drawn = f"s.cell<{v.type}>()"
+                drawn = f"s.cell<{v.type}>({v.length or ''})"
             elif v.type in self.ranges:
                 low, high = self.ranges[v.type]
                 drawn = f"s.an_enum({low}, {high})"

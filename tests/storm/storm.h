@@ -279,9 +279,17 @@ public:
         for (uint32_t i = 0; i < count * 3; ++i) values[i] = is_wild ? number() : 0.01f * float(below(20));
         return {values, one_in(40) ? 0xFFFFFFFF : count};
     }
+    struct PairsIn {
+        const float *here, *there;
+        uint32_t count;
+    };
+    PairsIn pairs_in() {
+        const PointsIn points = points_in();
+        return {points.positions, one_in(20) ? nullptr : points.positions, points.count};
+    }
     template <typename T>
-    T* cell() {
-        return one_in(12) ? nullptr : static_cast<T*>(block(sizeof(T)));
+    T* cell(uint32_t length = 1) {
+        return one_in(12) ? nullptr : static_cast<T*>(block(length * sizeof(T)));
     }
     int32_t an_enum(int32_t low, int32_t high) {
         if (one_in(12)) return int32_t(whole());

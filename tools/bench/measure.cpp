@@ -98,15 +98,17 @@ void judge_size(vfit_context context, const PersonOfPopulation& person,
 /// One person before the camera, scanned in several ways at once.
 class ScanOfPerson {
 public:
-    ScanOfPerson(const ScanScene& scene, vfit_sex sex, bool turn = false)
-        : scene_(scene), turn_(turn), context_(open_context()), tracker_(open_own_tracker(context_.get())) {
+    ScanOfPerson(const ScanScene& scene, vfit_sex sex, const std::string& view = "side")
+        : scene_(scene), view_(view), context_(open_context()), tracker_(open_own_tracker(context_.get())) {
         vfit_scan_desc desc = vfit_scan_desc_init();
         desc.frame_count = scene.front_frames, desc.side_frame_count = scene.side_frames;
         desc.sex = sex;
         desc.method = VFIT_SCAN_PROPORTIONS;
         check(vfit_scan_create(context_.get(), &desc, paper_.out()));
         desc.method = VFIT_SCAN_FIT, desc.flags = VFIT_SCAN_BARE;
-        if (turn) desc.side_frame_count = 0, desc.flags |= VFIT_SCAN_TURN;
+        if (view != "side") desc.side_frame_count = 0;
+        if (view == "turn") desc.flags |= VFIT_SCAN_TURN;
+        if (view == "cameras") desc.camera_count = kCameras;
         check(vfit_scan_create(context_.get(), &desc, fit_.out()));
         desc.flags |= VFIT_SCAN_TIGHT;
         check(vfit_scan_create(context_.get(), &desc, told_.out()));
@@ -119,13 +121,20 @@ public:
                   << "\n";
         return false;
     }
-    /// The side, or the turn; likewise.
+    /// The other view; likewise.
     bool all_round(const PersonOfPopulation& person) {
-        if (!turn_) return side(person);
-        play(scene_.turn_uri(person), false);
+        if (view_ == "side") return side(person);
+        if (view_ == "turn")
+            play(scene_.turn_uri(person), false);
+        else
+            for (uint32_t camera = 0; camera < kCameras; ++camera) {
+                // Each has a tracker of its own.
+                tracker_ = open_own_tracker(context_.get());
+                play(scene_.around_uri(person, 360.0f * float(camera) / float(kCameras)), false, camera);
+            }
         if (result_ == VFIT_OK) return true;
-        std::cerr << "no whole turn: " << guidance_text(state_.guidance) << ": " << scene_.turn_uri(person)
-                  << "\n";
+        std::cerr << "no whole " << view_ << ": " << guidance_text(state_.guidance) << ": "
+                  << scene_.turn_uri(person) << "\n";
         return false;
     }
     bool side(const PersonOfPopulation& person) {
@@ -142,7 +151,9 @@ public:
     double last_frame_ms() const { return last_frame_ms_; }
 
 private:
-    void play(const std::string& uri, bool front) {
+    static constexpr uint32_t kCameras = 4;
+
+    void play(const std::string& uri, bool front, uint32_t camera = 0) {
         Source source(context_.get(), uri);
         while (const auto frame = source.next()) {
             Frame tracked;
@@ -150,16 +161,16 @@ private:
             const auto bodies = bodies_of(tracked.get());
             if (bodies.empty()) continue;
             const uint32_t body = bodies.front().body_id;
-            result_ = check(vfit_scan_add(fit_.get(), tracked.get(), body, &state_));
+            result_ = check(vfit_scan_add_from(fit_.get(), camera, tracked.get(), body, &state_));
             // A scan that is complete looks no further.
             if (state_.compute_ms > 0.0f) last_frame_ms_ = double(state_.compute_ms);
-            check(vfit_scan_add(told_.get(), tracked.get(), body, nullptr));
+            check(vfit_scan_add_from(told_.get(), camera, tracked.get(), body, nullptr));
             if (front) check(vfit_scan_add(paper_.get(), tracked.get(), body, nullptr));
         }
     }
 
     const ScanScene& scene_;
-    bool turn_;
+    std::string view_;
     Context context_;
     Tracker tracker_;
     Scan fit_, told_, paper_;
@@ -183,7 +194,7 @@ std::vector<std::string> groups_of(const PersonOfPopulation& person, const ScanS
 
 void scan(const PersonOfPopulation& person, const ScanScene& scene, uint32_t seed, bool told_sex,
           MeasureSet& set) {
-    ScanOfPerson one(scene, told_sex ? person.sex : VFIT_SEX_UNKNOWN, set.turn);
+    ScanOfPerson one(scene, told_sex ? person.sex : VFIT_SEX_UNKNOWN, set.view);
     ++set.scans;
     if (!one.front(person)) {
         ++set.failed;
@@ -277,9 +288,11 @@ void run(const Options& o) {
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
     std::vector<MeasureSet> sets = {{"varied", BodySpace::kVaried, Dress::kTight},
                                     {"varied clothed", BodySpace::kVaried, Dress::kClothed},
-                                    {"turn", BodySpace::kVaried, Dress::kTight, true},
-                                    {"turn clothed", BodySpace::kVaried, Dress::kClothed, true},
-                                    {"black hair", BodySpace::kVaried, Dress::kTight, false, true},
+                                    {"turn", BodySpace::kVaried, Dress::kTight, "turn"},
+                                    {"turn clothed", BodySpace::kVaried, Dress::kClothed, "turn"},
+                                    {"cameras", BodySpace::kVaried, Dress::kTight, "cameras"},
+                                    {"cameras clothed", BodySpace::kVaried, Dress::kClothed, "cameras"},
+                                    {"black hair", BodySpace::kVaried, Dress::kTight, "side", true},
                                     {"in space", BodySpace::kInside, Dress::kTight},
                                     {"off space", BodySpace::kOutside, Dress::kTight},
                                     {"clothed", BodySpace::kOutside, Dress::kClothed}};

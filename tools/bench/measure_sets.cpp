@@ -28,8 +28,7 @@ constexpr const char* kGirths[] = {"chest_girth_m", "waist_girth_m", "hip_girth_
 constexpr uint32_t kGroup = 30;  // people, from which on a group is judged by itself
 
 void print_groups(const MeasureSet& set) {
-    std::cout << "  chest, waist, hip by group, front and " << (set.turn ? "turn" : "side")
-              << (set.tight() ? ", told tight" : "")
+    std::cout << "  chest, waist, hip by group, front and " << set.view << (set.tight() ? ", told tight" : "")
               << ": absolute error, bias, mm; share within the interval\n";
     for (const auto& [group, tallies] : set.groups) {
         std::cout << "  " << std::left << std::setw(24) << group << std::right << std::fixed << std::setw(4)
@@ -118,13 +117,13 @@ void judge_varied(const MeasureSet& set, Targets& targets) {
         targets.judge(set.name + ": " + what, 1000 * value_m, Aim::at_most, mm, 1, " mm");
     };
     double covered = 0.0;
-    const char* views = set.turn ? ", front and turn" : ", front and side";
+    const std::string views = std::string(", front and ") + set.view;
     // Of all, of the heavy ones, and a group's bias.
     struct Most {
         double all, heavy, bias;
     };
-    const Most mm = set.tight() ? (set.turn ? Most{7, 10, 4} : Most{12, 18, 6})
-                                : (set.turn ? Most{20, 32, 10} : Most{24, 32, 10});
+    const Most mm = set.tight() ? (set.turn() ? Most{7, 10, 4} : Most{12, 18, 6})
+                                : (set.turn() ? Most{20, 32, 10} : Most{24, 32, 10});
     for (const char* key : kGirths) {
         most(std::string(key) + views, both.at(key).mean(), mm.all);
         if (set.tight()) most(std::string(key) + ", front", front.at(key).mean(), 22);
@@ -154,7 +153,7 @@ void judge_varied(const MeasureSet& set, Targets& targets) {
                       Aim::at_least, 0.80, 3);
     }
     targets.judge(set.name + ": beyond the capture" + views + ", median", set.all_round_ms.quantile(0.5),
-                  Aim::at_most, set.turn ? 1000.0 : 150.0, 0, " ms");
+                  Aim::at_most, set.turn() ? 1000.0 : 150.0, 0, " ms");
     const SizeLetters& l = set.tight() ? set.letters_told : set.letters;
     const double n = std::max(1u, l.people);
     targets.judge(set.name + ": size letter exact" + between(confidence(l.exact, n)), l.exact / n,
@@ -167,11 +166,11 @@ void judge_varied(const MeasureSet& set, Targets& targets) {
 }  // namespace
 
 void print(const MeasureSet& set) {
-    std::vector<std::pair<const char*, const MeasureTallies*>> columns = {
-        {"front", &set.front}, {set.turn ? "front and turn" : "front and side", &set.both}};
+    std::vector<std::pair<std::string, const MeasureTallies*>> columns = {
+        {"front", &set.front}, {"front and " + std::string(set.view), &set.both}};
     if (set.tight())
         columns.insert(columns.end(), {{"front, told tight", &set.front_told},
-                                       {set.turn ? "and turn" : "and side", &set.both_told}});
+                                       {"and " + std::string(set.view), &set.both_told}});
     columns.insert(columns.end(), {{"typed height, weight", &set.typed},
                                    {"typed and all views", &set.both_and_typed},
                                    {"the paper's method", &set.paper}});
@@ -179,7 +178,7 @@ void print(const MeasureSet& set) {
               << " of them failed. Absolute error with 95 % confidence, bias, share within the 90 % "
                  "interval; mm, kg\n"
               << std::left << std::setw(24) << "";
-    for (const auto& [title, tallies] : columns) std::cout << std::setw(25) << (std::string("  ") + title);
+    for (const auto& [title, tallies] : columns) std::cout << std::setw(25) << "  " + title;
     std::cout << std::right << "\n";
     for (const auto& [key, front] : set.front) {
         const double unit = key == "body_mass_kg" ? 1.0 : 1000.0;
@@ -196,9 +195,9 @@ void print(const MeasureSet& set) {
     }
     const SizeLetters& l = set.tight() ? set.letters_told : set.letters;
     const double n = std::max(1u, l.people);
-    std::cout << std::setprecision(3) << "  size letter, front and " << (set.turn ? "turn" : "side")
-              << ": exact " << l.exact / n << between(confidence(l.exact, n)) << ", within one "
-              << l.within_one / n << between(confidence(l.within_one, n)) << ", log loss " << l.log_loss / n
+    std::cout << std::setprecision(3) << "  size letter, front and " << set.view << ": exact " << l.exact / n
+              << between(confidence(l.exact, n)) << ", within one " << l.within_one / n
+              << between(confidence(l.within_one, n)) << ", log loss " << l.log_loss / n
               << "\n  a chart by true height and weight: exact " << l.chart_exact()
               << ", log loss (at its best) " << l.chart_log_loss() << "\n";
     if (set.is_varied()) print_groups(set);

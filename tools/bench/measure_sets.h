@@ -62,21 +62,22 @@ struct MeasureSet {
     std::string name;
     BodySpace space;
     Dress dress;
-    bool turn = false;  // after the front a turn on the spot instead of the side
-    bool hair = false;  // black: 3 to 12 cm of the crown come without a reading
+    const char* view = "side";  // after the front; or "turn" on the spot, "cameras": four around at once
+    bool hair = false;          // black: 3 to 12 cm of the crown come without a reading
     bool is_varied() const { return space == BodySpace::kVaried; }
     // Of a scan that is told nothing of clothes, and of one that is told that they are tight; both: of the
-    // front and the side, or the turn.
+    // front and that view.
     MeasureTallies front{}, both{}, front_told{}, both_told{}, paper{};
     // By a population alone, from a typed height and weight; and of both of the scan that knows of the
     // clothes, and those.
     MeasureTallies typed{}, both_and_typed{};
     std::map<std::string, MeasureTallies>
-        groups{};  // of real sets: front and side, told tight where clothes are
+        groups{};  // of real sets: front and that view, told tight where clothes are
     SizeLetters letters{}, letters_told{};
     Samples last_ms{};       // what is left to do when the capture of the front ends
-    Samples all_round_ms{};  // of the side or the turn
+    Samples all_round_ms{};  // of that view
     uint32_t scans = 0, failed = 0;
+    bool turn() const { return std::string(view) == "turn"; }
     bool tight() const { return dress == Dress::kTight; }
 };
 

@@ -47,68 +47,117 @@ const char* guidance_text(vfit_guidance guidance) {
         case VFIT_GUIDANCE_FACE_CAMERA: return "the person does not face the camera";
         case VFIT_GUIDANCE_TURN_ROUND: return "the person does not go on turning";
         case VFIT_GUIDANCE_TURN_SLOWER: return "the person turns too fast";
+        case VFIT_GUIDANCE_ARMS_FORWARD: return "from the side, an arm hides the body";
         default: return "unknown reason";
     }
 }
 
+namespace {
+
+/// A scan and what has come of it so far.
+class Scanning {
+public:
+    Scanning(vfit_context context, const ScanOptions& options, size_t cameras) : bodies_(cameras) {
+        vfit_scan_desc desc = vfit_scan_desc_init();
+        desc.frame_count = options.frames;
+        desc.sex = options.sex;
+        desc.method = options.method;
+        desc.side_frame_count = options.side_frames;
+        desc.flags = options.flags;
+        desc.camera_count = uint32_t(cameras);
+        check(vfit_scan_create(context, &desc, run_.scan.out()));
+        run_.method = options.method == VFIT_SCAN_DEFAULT ? VFIT_SCAN_FIT : options.method;
+    }
+
+    /// Whether the frame was taken.
+    bool add(uint32_t camera, vfit_frame tracked) {
+        // Frames of one person alone are averaged, also where somebody else takes their place.
+        uint32_t& scanned = bodies_[camera];
+        const uint32_t body = scanned ? scanned : active_body(tracked);
+        vfit_scan_state state = vfit_scan_state_init();
+        const vfit_result result = check(vfit_scan_add_from(run_.scan.get(), camera, tracked, body, &state));
+        const bool taken = result != VFIT_INCOMPLETE;
+        if (taken) {
+            scanned = body;
+            run_.compute_ms += state.compute_ms;
+            run_.last_ms = state.compute_ms;
+            run_.corrections_m.push_back(state.correction_m);
+        } else {
+            refused_.add(state.guidance);
+        }
+        run_.frames_wanted = state.frames_wanted;
+        run_.frames_taken = state.frames_taken;
+        run_.side_frames_taken = state.side_frames_taken;
+        run_.turn_seen = state.turn_seen;
+        run_.complete = result == VFIT_OK;
+        progress_.at(run_.frames_taken, run_.frames_wanted);
+        return taken;
+    }
+    /// Complete, or no use to wait any longer; asked once after each moment.
+    bool ended() { return run_.complete || ++moments_ == kPatience * run_.frames_wanted; }
+    ScanRun finish() {
+        if (run_.frames_wanted == 0) throw Failure("the source has no frames");
+        if (run_.frames_taken == 0) throw NoFrameTaken(no_frame_text(run_, refused_));
+        run_.body_id = bodies_.front();
+        return std::move(run_);
+    }
+
+private:
+    ScanRun run_;
+    RefusedFrames refused_;
+    std::vector<uint32_t> bodies_;  // who is scanned, of each camera
+    uint32_t moments_ = 0;
+    Progress progress_{"scanning"};
+};
+
+ScanRun run_scan(vfit_context context, Cameras& cameras, const ScanOptions& options, Frame* last_frame) {
+    Scanning scanning(context, options, cameras.count());
+    while (cameras.next()) {
+        for (size_t i = 0; i < cameras.count(); ++i)
+            if (scanning.add(uint32_t(i), cameras.tracked(i)) && i == 0 && last_frame)
+                *last_frame = cameras.take_tracked(i);
+        if (scanning.ended()) break;
+    }
+    return scanning.finish();
+}
+
+}  // namespace
+
 ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& options, Frame* last_frame) {
     const Tracker tracker = open_tracker(context, options.track);
-    ScanRun run;
-    vfit_scan_desc desc = vfit_scan_desc_init();
-    desc.frame_count = options.frames;
-    desc.sex = options.sex;
-    desc.method = options.method;
-    desc.side_frame_count = options.side_frames;
-    desc.flags = options.flags;
-    check(vfit_scan_create(context, &desc, run.scan.out()));
-    vfit_scan_state state = vfit_scan_state_init();
-    uint32_t seen = 0;
-    RefusedFrames refused;
-    Progress progress("scanning");
+    Scanning scanning(context, options, 1);
     while (auto frame = source.next()) {
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        // Frames of one person alone are averaged, also where somebody else takes their place.
-        const uint32_t body = run.body_id ? run.body_id : active_body(tracked.get());
-        const vfit_result result = check(vfit_scan_add(run.scan.get(), tracked.get(), body, &state));
-        run.frames_wanted = state.frames_wanted;
-        if (result != VFIT_INCOMPLETE) {
-            run.body_id = body;
-            run.compute_ms += state.compute_ms;
-            run.last_ms = state.compute_ms;
-            run.corrections_m.push_back(state.correction_m);
-            if (last_frame) *last_frame = std::move(tracked);
-        } else {
-            refused.add(state.guidance);
-        }
-        run.frames_taken = state.frames_taken;
-        run.side_frames_taken = state.side_frames_taken;
-        run.turn_seen = state.turn_seen;
-        run.complete = result == VFIT_OK;
-        progress.at(run.frames_taken, run.frames_wanted);
-        if (result == VFIT_OK || ++seen == kPatience * state.frames_wanted) break;
+        if (scanning.add(0, tracked.get()) && last_frame) *last_frame = std::move(tracked);
+        if (scanning.ended()) break;
     }
-    if (seen == 0) throw Failure("the source has no frames");
-    if (run.frames_taken == 0) throw NoFrameTaken(no_frame_text(run, refused));
-    run.method = options.method == VFIT_SCAN_DEFAULT ? VFIT_SCAN_FIT : options.method;
-    return run;
+    return scanning.finish();
 }
 
 ScanRun scan_source(vfit_context context, const std::string& uri, const ScanOptions& options,
                     Frame* last_frame) {
+    const auto scan = [&](const ScanOptions& with) {
+        if (with.other_cameras.empty()) {
+            Source source(context, uri);
+            return run_scan(context, source, with, last_frame);
+        }
+        std::vector<std::string> uris{uri};
+        uris.insert(uris.end(), with.other_cameras.begin(), with.other_cameras.end());
+        Cameras cameras(context, uris, with.track, with.places);
+        return run_scan(context, cameras, with, last_frame);
+    };
     std::string reason;
     try {
-        Source source(context, uri);
-        return run_scan(context, source, options, last_frame);
+        return scan(options);
     } catch (const NoFrameTaken& refused) {
         if (options.method != VFIT_SCAN_DEFAULT) throw;
         reason = refused.what();
     }
     ScanOptions paper = options;
     paper.method = VFIT_SCAN_PROPORTIONS;
-    Source again(context, uri);
     try {
-        ScanRun run = run_scan(context, again, paper, last_frame);
+        ScanRun run = scan(paper);
         run.note = "measured by the paper's method, without girths: for the fitted body, " + reason;
         return run;
     } catch (const NoFrameTaken&) {

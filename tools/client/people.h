@@ -1,6 +1,7 @@
 // The steps that several commands share: scan a person, name the size.
 #pragma once
 
+#include "client/cameras.h"
 #include "client/client.h"
 
 namespace vfit::tools {
@@ -10,8 +11,10 @@ struct ScanOptions {
     vfit_sex sex = VFIT_SEX_UNKNOWN;
     vfit_scan_method method = VFIT_SCAN_DEFAULT;
     TrackOptions track{};
-    uint32_t side_frames = 0;  // of VFIT_SCAN_FIT
-    uint32_t flags = 0;        // VFIT_SCAN_*
+    uint32_t side_frames = 0;                  // of VFIT_SCAN_FIT
+    uint32_t flags = 0;                        // VFIT_SCAN_*
+    std::vector<std::string> other_cameras{};  // that see the person at the same time; of scan_source
+    std::vector<CameraPlace> places{};         // of all cameras, or none
 };
 
 struct ScanRun {

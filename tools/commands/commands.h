@@ -9,6 +9,7 @@ namespace vfit::tools {
 
 void add_info(Command& app);
 void add_measure(Command& app);
+void add_cameras(Command& app);
 void add_calibrate(Command& app);
 void add_estimate(Command& app);
 void add_validate(Command& app);

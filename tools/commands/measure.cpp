@@ -18,7 +18,8 @@ struct Options {
     std::string source, method, garment = "short_sleeves", sex = "unknown";
     uint32_t frames = 0, side_frames = kNotSaid;
     bool json = false, bare = false, tight = false, turn = false;
-    std::string profile, merged, own, calibration;
+    std::string profile, merged, own, calibration, places;
+    std::vector<std::string> cameras;
     TrackOptions track;
 };
 
@@ -34,11 +35,14 @@ Json measure(const Options& options) {
     const ScanRun run = scan_source(
         context.get(), options.source,
         {options.frames, sex_from(options.sex), method, options.track,
-         options.side_frames != kNotSaid ? options.side_frames
-         : options.turn                  ? 0u
-                                         : kSideFrames,
+         options.side_frames != kNotSaid            ? options.side_frames
+         : options.turn || !options.cameras.empty() ? 0u
+                                                    : kSideFrames,
          (options.bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (options.tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u) |
-             (options.turn ? uint32_t{VFIT_SCAN_TURN} : 0u)});
+             (options.turn ? uint32_t{VFIT_SCAN_TURN} : 0u),
+         options.cameras,
+         options.places.empty() ? std::vector<CameraPlace>{}
+                                : read_places(options.places, options.cameras.size() + 1)});
     Json out;
     out["method"] = scan_method_text(run.method);
     if (!run.note.empty()) out["note"] = run.note;
@@ -46,7 +50,8 @@ Json measure(const Options& options) {
         out["note"] = "no whole turn was seen: half of one counts, less than that does not";
     out["frames"] = run.frames_taken;
     if (run.method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
-    if (options.turn) out["turned"] = double(std::popcount(run.turn_seen)) / double(VFIT_TURN_WAYS);
+    if (options.turn || !options.cameras.empty())
+        out["turned"] = double(std::popcount(run.turn_seen)) / double(VFIT_TURN_WAYS);
     std::vector<vfit_measurement> measured = measurements_of(run.scan.get());
     // Before the merge: what is kept of an earlier scan has been calibrated already.
     if (!options.calibration.empty()) measured = calibrated_measurements(calibration, measured);
@@ -133,13 +138,17 @@ void add_measure(Command& app) {
     command
         .add_option("--side-frames", o->side_frames,
                     "Of --method fit: frames to wait for from the side, after those from the front (default "
-                    "15, with --turn 0)")
+                    "15, with --turn or --camera 0)")
         .within(0, 3000);
     command.add_option("--sex", o->sex, "f or m, where known").one_of({"f", "m", "unknown"});
     command.add_flag("--bare", o->bare, "Of --method fit: no shoes, and no hair on the crown");
     command.add_flag("--tight", o->tight, "Of --method fit: the clothes lie on the skin");
     command.add_flag("--turn", o->turn,
                      "Of --method fit: after the other frames the person turns once round on the spot");
+    command.add_option(
+        "--camera", o->cameras,
+        "Of --method fit: another camera that sees the person at the same time (once for each)");
+    command.add_option("--places", o->places, "How all cameras stand to each other (vfit cameras)");
     command.add_option("--own", o->own,
                        "File of measures of your own (docs/measuring.md), taken on the avatar of the scan");
     command.add_option("--merge", o->merged,
@@ -150,6 +159,9 @@ void add_measure(Command& app) {
     command.add_flag("--json", o->json, "Print JSON");
     add_track_options(command, o->track);
     command.callback([o] {
+        if (o->turn && !o->cameras.empty())
+            throw WrongUsage("--turn is seen by one camera: leave --camera out");
+        if (!o->places.empty() && o->cameras.empty()) throw WrongUsage("--places needs --camera");
         const Json result = measure(*o);
         if (o->json)
             print_document(result);

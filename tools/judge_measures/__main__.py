@@ -36,6 +36,7 @@ MEASURES = {
 }
 FRONT_FRAMES, SIDE_FRAMES, STILL_FRAMES = 45, 45, 20  # the tracker sees the room first
 TURN_FRAMES, TURN_DEG = 160, 375  # once round
+AROUND_FRAMES = 70  # of several cameras at once
 TURNED = 0.5  # of the ways to face: from there on a turn counts
 GIRTHS, DEPTHS = (0.92, 1.0, 1.08, 1.18), (1.0, 0.95, 1.08)
 STATURES_M = {"f": (1.52, 1.60, 1.68, 1.76), "m": (1.65, 1.73, 1.81, 1.90)}
@@ -76,11 +77,7 @@ class Person:
     def record(self, folder, turn_deg):
         """From the front, then from the side or so far round on the spot, with small movements."""
         rng = self.rng
-        width, height, focal = SENSORS[rng.integers(len(SENSORS))]
-        camera_m, distance_m = rng.uniform(0.6, 1.6), rng.uniform(2.4, 3.1) + 0.35 * (focal > 500)
-        tilt = np.degrees(np.arctan2(camera_m - 0.5 * self.stature_m, distance_m)) + rng.uniform(-1.5, 1.5)
-        camera = Camera(width, height, focal, camera_m, tilt)
-        room = room_depth(camera, distance_m + rng.uniform(0.8, 1.6), rng.uniform(1.4, 2.2))
+        sensor = Sensor(rng, self.stature_m)
         feet_m = rng.uniform(0.25, 0.35)
         front = self.actor(rng.uniform(30, 43), 0.0, feet_m), rng.uniform(-8, 8)
         side = self.actor(rng.uniform(6, 12), rng.uniform(30, 43), feet_m), 90 + rng.uniform(-8, 8)
@@ -93,17 +90,54 @@ class Person:
             views += [(*turning, front[1] + TURN_DEG * i / TURN_FRAMES) for i in range(frames)]
         else:
             views += [(side[0].skin(0), side[0].joints(0), side[1])] * SIDE_FRAMES
+        self._draw(folder, sensor, views)
+
+    def record_around(self, folder, cameras):
+        """By so many cameras at once, all around: a recording each, and how they stand to each other."""
+        rng = self.rng
+        actor = self.actor(rng.uniform(36, 48), 0.0, rng.uniform(0.25, 0.35))
+        actor, heading = (actor.skin(0), actor.joints(0)), rng.uniform(-8, 8)
+        places = []
+        for i in range(cameras):
+            sensor, around = Sensor(rng, self.stature_m), 360 * i / cameras + rng.uniform(-8, 8) * (i > 0)
+            self._draw(folder / str(i), sensor, [(*actor, heading + around)] * AROUND_FRAMES)
+            # The person stands as far before each; as roughly as people walking about would tell it.
+            turned = -around + rng.uniform(-3, 3)
+            at = np.array([0, 0, -sensor.distance_m])
+            if i == 0:
+                first = at
+            place = first - _about_up(turned) @ at + rng.uniform(-0.03, 0.03, 3)
+            places.append({"position": place.tolist(), "turned_deg": turned})
+        places[0] = {"position": [0, 0, 0], "turned_deg": 0}
+        text = json.dumps({"format": "vfit-cameras", "version": 1, "cameras": places}, indent=1)
+        (folder / "places.json").write_text(text + "\n")
+
+    def _draw(self, folder, sensor, views):
+        """`views`: skin, joints and heading of every frame."""
+        rng, camera, room, focal = self.rng, sensor.camera, sensor.room, sensor.focal
         recording = Recording(folder, camera, ["empty"] * STILL_FRAMES + ["scan"] * len(views))
         for _ in range(STILL_FRAMES):
-            recording.add(sense(room, focal, rng), front[0].joints(0))
+            recording.add(sense(room, focal, rng), views[0][1])
         for frame, (skin, joints, heading) in enumerate(views):
             t = frame / FPS
             turn = _about_up(heading + 0.7 * np.sin(1.1 * t))
-            at = np.array([0.004 * np.sin(2.1 * t), 0, 0.006 * np.sin(1.4 * t + 1) - distance_m])
+            at = np.array([0.004 * np.sin(2.1 * t), 0, 0.006 * np.sin(1.4 * t + 1) - sensor.distance_m])
             depth = see(skin @ turn.T + at, self.character.faces, camera, room)
             moved = {name: camera.to_camera(p @ turn.T + at) for name, p in joints.items()}
             recording.add(sense(depth, focal, rng), moved)
         recording.close()
+
+
+class Sensor:
+    """A camera before a person of that stature, and the room behind."""
+
+    def __init__(self, rng, stature_m):
+        width, height, self.focal = SENSORS[rng.integers(len(SENSORS))]
+        height_m = rng.uniform(0.6, 1.6)
+        self.distance_m = rng.uniform(2.4, 3.1) + 0.35 * (self.focal > 500)
+        tilt = np.degrees(np.arctan2(height_m - 0.5 * stature_m, self.distance_m)) + rng.uniform(-1.5, 1.5)
+        self.camera = Camera(width, height, self.focal, height_m, tilt)
+        self.room = room_depth(self.camera, self.distance_m + rng.uniform(0.8, 1.6), rng.uniform(1.4, 2.2))
 
 
 def _world(character):
@@ -118,6 +152,12 @@ def _about_up(degrees):
 
 def measured(vfit, folder, flags):
     """What vfit tells of a recording: measures by key, or the reason why there are none."""
+    others = []
+    if (folder / "places.json").exists():
+        cameras = sorted(path for path in folder.iterdir() if path.is_dir())
+        folder, others = cameras[0], ["--places", str(folder / "places.json")]
+        for camera in cameras[1:]:
+            others += ["--camera", str(camera)]
     command = [
         vfit,
         "measure",
@@ -129,11 +169,13 @@ def measured(vfit, folder, flags):
         "tracked",
         "--bare",
     ]
-    done = subprocess.run(command + flags, capture_output=True, text=True)
+    done = subprocess.run(command + others + flags, capture_output=True, text=True)
     if done.returncode:
         return None, done.stderr.strip()
     out = json.loads(done.stdout)
-    if out["method"] != "fit" or not (out.get("side_frames") or out.get("turned", 0) >= TURNED):
+    if out["method"] != "fit":
+        return None, out.get("note", "")
+    if not (others or out.get("side_frames") or out.get("turned", 0) >= TURNED):
         return None, "no side view, or no half turn: " + out.get("note", "")
     return out["measurements"], ""
 
@@ -170,6 +212,12 @@ def main():
         metavar="DEGREES",
         help="a turn on the spot instead of the side view (all round)",
     )
+    parser.add_argument(
+        "--cameras",
+        type=int,
+        default=1,
+        help="so many, all around at the same time, instead of the side view (1)",
+    )
     parser.add_argument("--list", action="store_true", help="a line for each person")
     parser.add_argument("--json", type=Path, help="write the figures there")
     options = parser.parse_args()
@@ -177,14 +225,24 @@ def main():
     if not files:
         raise SystemExit(f"judge_measures: {options.folder}: holds no .glb")
     turn = ["--turn"] if options.turn else []
-    suffix = "" if not options.turn else "-turn" if options.turn == TURN_DEG else f"-turn{options.turn}"
+    around = options.cameras > 1
+    if around and options.turn:
+        raise SystemExit("judge_measures: --turn is seen by one camera: leave --cameras out")
+    suffix = ""
+    if around:
+        suffix = f"-around{options.cameras}"
+    elif options.turn:
+        suffix = "-turn" if options.turn == TURN_DEG else f"-turn{options.turn}"
     told = {"told nothing": (turn, []), "told tight": (turn + ["--tight"], [])}
     for number in range(options.people):
         try:
             person = Person(files[number % len(files)], number)
             truth = person.truth()
             folder = options.work / (person.name + suffix)
-            if not (folder / "camera.json").exists():
+            if around:
+                if not (folder / "places.json").exists():
+                    person.record_around(folder, options.cameras)
+            elif not (folder / "camera.json").exists():
                 person.record(folder, options.turn)
             (folder / "truth.json").write_text(json.dumps({"sex": person.sex, "measures": truth}))
         except (BadFile, OSError) as error:

@@ -104,6 +104,11 @@ std::string ScanScene::turn_uri(const PersonOfPopulation& person) const {
            "&rate=15&frames=" + std::to_string(turn_frames);
 }
 
+std::string ScanScene::around_uri(const PersonOfPopulation& person, float more_deg) const {
+    return uri(person) + "&motion=scan&facing=" + text_of(turned_deg + more_deg) +
+           "&arms=" + text_of(turn_arms_deg) + "&frames=" + std::to_string(around_frames);
+}
+
 Json ScanScene::json() const {
     return {{"sensor", sensor},
             {"distance_m", distance_m},

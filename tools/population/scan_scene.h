@@ -24,7 +24,7 @@ struct ScanScene {
           turn_arms_deg = 42.0f;
     float top_m = 0.0f, sleeves_m = 0.0f, trousers_m = 0.0f;
     float black_hair_m = 0.0f;  // of the crown, without a reading
-    uint32_t front_frames = 30, side_frames = 15, turn_frames = 144, seed = 1;
+    uint32_t front_frames = 30, side_frames = 15, turn_frames = 144, around_frames = 8, seed = 1;
 
     /// A Kinect v1 or a time-of-flight camera on a stand or a shelf, looking at the middle of the person, as
     /// near as it sees all of them or up to 3.1 m away; clothes as said.
@@ -38,6 +38,8 @@ struct ScanScene {
     std::string front_uri(const PersonOfPopulation& person) const;
     std::string side_uri(const PersonOfPopulation& person) const;
     std::string turn_uri(const PersonOfPopulation& person) const;
+    /// Arms out, by a camera before which the person is turned by that much more.
+    std::string around_uri(const PersonOfPopulation& person, float more_deg) const;
     Json json() const;
 
 private:

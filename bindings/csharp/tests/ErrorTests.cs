@@ -94,6 +94,14 @@ namespace Vfit.Tests
             using (var frame = new Frame(Context))
             {
                 Assert.Throws<ArgumentOutOfRangeException>(() => tracker.Hint(new JointHint[2], 3));
+                Float3 position;
+                Float4 rotation;
+                Assert.Throws<ArgumentNullException>(
+                    () => Context.AlignWorlds(null, new Float3[8], out position, out rotation));
+                Assert.Throws<ArgumentOutOfRangeException>(
+                    () => Context.AlignWorlds(new Float3[9], new Float3[8], out position, out rotation));
+                Assert.Throws<VfitException>(
+                    () => Context.AlignWorlds(new Float3[8], new Float3[8], out position, out rotation));
                 Assert.Throws<ArgumentOutOfRangeException>(
                     () => tracker.Submit(frame, default(Body), new Joint[2], -1, frame));
                 var pose = new BodyPose { Count = 1000 };

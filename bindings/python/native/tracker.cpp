@@ -72,6 +72,31 @@ void hint(const Tracker& tracker, const py::dict& hints, uint32_t body_id) {
     });
 }
 
+void hint_from(const Tracker& tracker, const Frame& seen, const std::array<float, 3>& position,
+               const std::array<float, 4>& rotation, const std::optional<uint32_t>& body_id) {
+    const uint32_t body = body_or_active(seen, body_id);
+    run([&, t = tracker.get(), f = seen.get()] {
+        return vfit_tracker_hint_from(t, f, body, position.data(), rotation.data());
+    });
+}
+
+using Points = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+py::object align_worlds(const Context& context, const Points& here, const Points& there) {
+    for (const auto& points : {here, there})
+        if (points.ndim() != 2 || points.shape(1) != 3 || points.shape(0) != here.shape(0))
+            throw py::value_error("here and there must have the same shape (n, 3)");
+    std::array<float, 3> position{};
+    std::array<float, 4> rotation{};
+    float rms = 0.0f;
+    const float *a = here.data(), *b = there.data();
+    const auto count = static_cast<uint32_t>(here.shape(0));
+    run([&, h = context.handle()] {
+        return vfit_world_align(h, a, b, count, position.data(), rotation.data(), &rms);
+    });
+    return value("WorldPlace", py::tuple(py::cast(position)), py::tuple(py::cast(rotation)), rms);
+}
+
 void choose(const Tracker& tracker, const std::optional<uint32_t>& body_id) {
     run([&, t = tracker.get()] { return vfit_tracker_set_active(t, body_id.value_or(0)); });
 }
@@ -95,6 +120,10 @@ std::unique_ptr<Frame> submit(const Tracker& tracker, const Frame& frame, const 
 }  // namespace
 
 void bind_tracker(py::module_& m) {
+    m.def(
+        "align_worlds", &align_worlds, "context"_a, "here"_a, "there"_a,
+        "Where another camera's world space lies in this one's, from points (n, 3) that both saw at the same "
+        "times.");
     closable(
         py::class_<Tracker, std::shared_ptr<Tracker>>(m, "Tracker",
                                                       "Makes tracked frames: images, user map and bodies.")
@@ -115,6 +144,10 @@ void bind_tracker(py::module_& m) {
             .def("hint", &hint, "hints"_a, py::kw_only(), "body_id"_a = 0,
                  "Joints that you see in the image, name -> (x, y) or (x, y, confidence) in pixels, for "
                  "the next update alone.")
+            .def("hint_from", &hint_from, "seen"_a, "position"_a,
+                 "rotation"_a = std::array<float, 4>{0.0f, 0.0f, 0.0f, 1.0f}, "body_id"_a = py::none(),
+                 "A person as the tracker of another camera saw them, for the next update alone; position "
+                 "and rotation: its world space in this one's.")
             .def("choose", &choose, "body_id"_a,
                  "That person is the active one from the next frame on; None: by the rule again.")
             .def("submit", &submit, "frame"_a, "joints"_a, py::kw_only(), "body_id"_a = 1, "time_ns"_a = 0,

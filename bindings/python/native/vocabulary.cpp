@@ -137,7 +137,8 @@ void bind_vocabulary(py::module_& m) {
               {"JOINTS_MISSING", VFIT_GUIDANCE_JOINTS_MISSING},
               {"FACE_CAMERA", VFIT_GUIDANCE_FACE_CAMERA},
               {"TURN_ROUND", VFIT_GUIDANCE_TURN_ROUND},
-              {"TURN_SLOWER", VFIT_GUIDANCE_TURN_SLOWER}},
+              {"TURN_SLOWER", VFIT_GUIDANCE_TURN_SLOWER},
+              {"ARMS_FORWARD", VFIT_GUIDANCE_ARMS_FORWARD}},
              "Why a scan did not take a frame.");
 
     py::tuple names(VFIT_BONE_COUNT), parents(VFIT_BONE_COUNT);

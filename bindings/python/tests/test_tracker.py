@@ -229,6 +229,60 @@ def test_hints_are_for_one_update(ctx):
     tracker.hint({})
 
 
+def test_cameras_that_stand_around_measure_together(ctx):
+    ways = (0, 90, 180, 270)
+    walks = [ctx.open(f"virtual:motion=walk&seed=3&frames=40&facing={way}") for way in ways]
+    points = [np.array([frame.joints()["PELVIS"][:3] for frame in walk], np.float32) for walk in walks]
+    places = [vfit.align_worlds(ctx, points[0], there) for there in points]
+    assert all(place.rms < 0.02 for place in places)
+    assert places[1].position == pytest.approx((-2.7, 0, -2.7), abs=0.05)
+    assert places[1].rotation == pytest.approx((0, -0.7071, 0, 0.7071), abs=0.01)
+    with pytest.raises(vfit.DataError, match="walk about"):
+        vfit.align_worlds(ctx, points[0][:1].repeat(10, 0), points[1][:1].repeat(10, 0))
+    with pytest.raises(ValueError, match="shape"):
+        vfit.align_worlds(ctx, points[0], points[1][:5])
+
+    cameras = [ctx.open(f"virtual:motion=scan&seed=3&arms=42&facing={way}&frames=15") for way in ways]
+    trackers = [vfit.Tracker(ctx, joints="built_in") for _ in ways]
+    scan = vfit.Scan(ctx, frames=5, bare=True, tight=True, cameras=4)
+    seen = None
+    for frames in zip(*cameras):
+        for i, (tracker, frame) in enumerate(zip(trackers, frames)):
+            if seen and i:
+                # Of the first camera's world in this one's.
+                there = np.linalg.inv(_matrix(places[i]))
+                tracker.hint_from(seen, there[:3, 3], _quaternion(there))
+            tracked = tracker.update(frame)
+            state = scan.add(tracked, camera=i)
+            if i == 0:
+                seen = tracked
+        if state.complete:
+            break
+    assert state.complete
+    assert bin(state.turn_seen).count("1") == 4
+    assert scan.measure()["hip_girth_m"].observed
+    with pytest.raises(vfit.ArgumentError, match="camera 4"):
+        scan.add(tracked, camera=4)
+    with pytest.raises(vfit.ArgumentError, match="unit"):
+        trackers[0].hint_from(seen, (0, 0, 0), (0, 0, 0, 0))
+    with pytest.raises(vfit.ArgumentError, match="no body 9"):
+        trackers[0].hint_from(seen, (0, 0, 0), body_id=9)
+
+
+def _matrix(place):
+    x, y, z, w = place.rotation
+    out = np.eye(4)
+    out[0, 0] = out[2, 2] = w * w - y * y
+    out[0, 2], out[2, 0] = 2 * y * w, -2 * y * w
+    out[:3, 3] = place.position
+    return out
+
+
+def _quaternion(matrix):
+    half = 0.5 * np.arctan2(matrix[0, 2], matrix[0, 0])
+    return 0.0, np.sin(half), 0.0, np.cos(half)
+
+
 def test_the_body_fit_gives_the_active_person_rotations(ctx):
     for fit, wanted in (("auto", True), ("everybody", True), ("off", False)):
         tracker = vfit.Tracker(ctx, joints="built_in", fit=fit)

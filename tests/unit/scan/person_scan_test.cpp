@@ -35,10 +35,16 @@ protected:
         d.bare = true;
         return d;
     }
-    ScanProgress add(PersonScan& scan, const FitScene& scene) {
+    ScanProgress add(PersonScan& scan, const FitScene& scene, uint32_t camera = 0) {
         Body body = scene.joints;
         body.time_ns = time_ns_ += 33333333;
-        return scan.add({scene.image(), &body, 1});
+        return scan.add({scene.image(), &body, 1, camera});
+    }
+    /// A person with the arms held out who is turned by that many twelfths of half a turn.
+    FitScene seen_from(int way) {
+        Stance stance;
+        stance.turned_rad = float(way) * kPi / 12.0f, stance.arms_rad = 0.75f;
+        return standing_person(avatar_, stance);
     }
 
     static Measurement measured(const PersonScan& scan, const char* key) {
@@ -63,6 +69,36 @@ TEST_F(PersonScanTest, TakesTheFrontAndThenTheSide) {
     EXPECT_TRUE(scan.complete());
     EXPECT_EQ(scan.side_frames_taken(), 3u);
     EXPECT_FALSE(add(scan, side_).taken) << "nothing more is wanted";
+}
+
+TEST_F(PersonScanTest, ArmsThatHideTheSideAreNoSideView) {
+    PersonScan scan(desc(3, 3));
+    for (int i = 0; i < 3; ++i) add(scan, front_);
+    const auto guidance = [&](const Stance& stance) {
+        const FitScene scene = standing_person(avatar_, stance);
+        add(scan, scene);  // the person has moved
+        return add(scan, scene).guidance;
+    };
+    EXPECT_EQ(guidance({0.5f * kPi, 0.1f}), VFIT_GUIDANCE_ARMS_FORWARD);
+    EXPECT_EQ(guidance({0.5f * kPi, 0.6f}), VFIT_GUIDANCE_ARMS_FORWARD) << "held out";
+    EXPECT_EQ(guidance({-0.5f * kPi, 0.1f}), VFIT_GUIDANCE_ARMS_FORWARD) << "from their other side";
+    EXPECT_EQ(scan.side_frames_taken(), 0u);
+    Stance right = sideways();
+    right.turned_rad = -right.turned_rad;
+    for (int i = 0; i < 10; ++i) add(scan, standing_person(avatar_, right));
+    EXPECT_EQ(scan.side_frames_taken(), 3u);
+}
+
+TEST_F(PersonScanTest, TwoCamerasSeeFrontAndSideWithoutATurn) {
+    PersonScanDesc two = desc(4, 3);
+    two.paper.camera_count = 2;
+    PersonScan scan(two);
+    for (int i = 0; i < 6; ++i) add(scan, front_, 0), add(scan, seen_from(6), 1);
+    EXPECT_EQ(scan.frames_taken(), 4u);
+    EXPECT_EQ(add(scan, seen_from(6), 1).guidance, VFIT_GUIDANCE_ARMS_FORWARD);
+    EXPECT_EQ(scan.side_frames_taken(), 0u);
+    for (int i = 0; i < 10; ++i) add(scan, side_, 1);
+    EXPECT_EQ(scan.side_frames_taken(), 3u);
 }
 
 TEST_F(PersonScanTest, LeadsOnceRound) {
@@ -143,6 +179,60 @@ TEST_F(PersonScanTest, ATurnCountsFromItsHalfOn) {
     EXPECT_LT(sigma(), half) << "both sides are seen";
     scan.reset();
     EXPECT_EQ(scan.turn_seen(), 0u);
+}
+
+TEST_F(PersonScanTest, SeveralCamerasSeeAllRoundAtOnce) {
+    PersonScanDesc around = desc(4, 0);
+    around.tight = true;
+    around.paper.camera_count = 4;
+    PersonScan scan(around);
+    EXPECT_EQ(scan.camera_count(), 4u);
+    const FitScene views[] = {seen_from(0), seen_from(6), seen_from(12), seen_from(-6)};
+    float before = 0.0f;
+    int moments = 0;
+    for (; moments < 20 && !scan.complete(); ++moments) {
+        for (uint32_t camera = 0; camera < 4; ++camera) add(scan, views[camera], camera);
+        if (scan.frames_taken() && scan.turn_seen() == 0) before = measured(scan, "waist_girth_m").sigma;
+    }
+    EXPECT_TRUE(scan.complete());
+    EXPECT_LT(moments, 12) << "no camera waits for another one";
+    EXPECT_EQ(std::popcount(scan.turn_seen()), 4);
+    EXPECT_LT(measured(scan, "waist_girth_m").sigma, before) << "all around tells more";
+    const auto tape = measure_avatar(avatar_, VFIT_SEX_FEMALE);
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"}) {
+        const Measurement m = measured(scan, key);
+        EXPECT_NEAR(m.value, find(tape, key)->value, std::min(0.03f, 3.0f * m.sigma)) << key;
+    }
+    scan.reset();
+    EXPECT_EQ(scan.turn_seen(), 0u);
+    EXPECT_FALSE(scan.complete());
+}
+
+TEST_F(PersonScanTest, CamerasInFrontAloneAddNothing) {
+    PersonScanDesc two = desc(4, 0);
+    two.paper.camera_count = 2;
+    PersonScan scan(two);
+    const FitScene left = seen_from(-1), right = seen_from(1);
+    for (int i = 0; i < 4; ++i) add(scan, i % 2 ? left : right, uint32_t(i % 2));
+    EXPECT_EQ(scan.frames_taken(), 4u) << "of both, none of which has moved";
+    const float before = measured(scan, "waist_girth_m").sigma;
+    for (int i = 0; i < 20 && !scan.complete(); ++i) add(scan, i % 2 ? left : right, uint32_t(i % 2));
+    EXPECT_TRUE(scan.complete());
+    EXPECT_EQ(add(scan, left, 1).taken, false);
+    EXPECT_EQ(measured(scan, "waist_girth_m").sigma, before);
+}
+
+TEST_F(PersonScanTest, ACameraThatHasShownEnoughWaitsForTheOthers) {
+    PersonScanDesc two = desc(3, 0);
+    two.paper.camera_count = 2;
+    PersonScan scan(two);
+    for (int i = 0; i < 3; ++i) add(scan, front_, 0);
+    int taken = 0;
+    for (int i = 0; i < 10; ++i) taken += add(scan, front_, 0).taken;
+    EXPECT_EQ(taken, 3);
+    EXPECT_EQ(add(scan, front_, 0).guidance, VFIT_GUIDANCE_HOLD_STILL);
+    EXPECT_EQ(add(scan, standing_person(avatar_, {kPi, 0.05f}), 1).guidance, VFIT_GUIDANCE_ARMS_OUT);
+    EXPECT_FALSE(scan.complete());
 }
 
 TEST_F(PersonScanTest, MeasuresAPersonOfItsOwnSpace) {

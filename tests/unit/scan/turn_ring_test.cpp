@@ -58,5 +58,23 @@ TEST(TurnRing, ClosesAfterHalfATurn) {
     EXPECT_EQ(from_to(0, 23).doubt(), 1.0f);
 }
 
+TEST(TurnRing, CamerasThatStandAroundSurroundAPerson) {
+    const auto ways = [](std::initializer_list<int> seen) {
+        TurnRing ring;
+        for (const int way : seen) ring.add(way);
+        return ring;
+    };
+    EXPECT_TRUE(ways({0, 6, 12, 18}).surrounded());
+    EXPECT_TRUE(ways({1, 9, 17}).surrounded());
+    EXPECT_TRUE(ways({0, 6, 12}).surrounded()) << "both sides are seen from before and behind";
+    EXPECT_FALSE(ways({0, 12}).surrounded()) << "outlines alone";
+    EXPECT_FALSE(ways({0, 1, 12}).surrounded()) << "the person sways";
+    EXPECT_FALSE(ways({0, 6}).surrounded());
+    EXPECT_FALSE(ways({0, 6, 18}).surrounded()) << "no back";
+    EXPECT_FALSE(ways({}).surrounded());
+    EXPECT_GT(ways({0, 6, 12}).doubt_between_cameras(), ways({0, 8, 16}).doubt_between_cameras());
+    EXPECT_GT(ways({0, 6, 12, 18}).doubt_between_cameras(), 1.0f) << "not all is seen as often as in a turn";
+}
+
 }  // namespace
 }  // namespace vfit

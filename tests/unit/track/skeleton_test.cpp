@@ -160,6 +160,62 @@ TEST(Facing, AfterACutTheNextAnswerCounts) {
     EXPECT_TRUE(facing.away());
 }
 
+/// The person of standing() as another camera sees them, in this one's camera space.
+Body elsewhere(bool same_left, float logit) {
+    Body out;
+    const SeenJoints joints = same_left ? standing() : exchanged(standing());
+    for (int j = 0; j < kJointCount; ++j) out.set(j, joints[size_t(j)].position + Vec3(0.1f, 0.0f, 0.1f));
+    out.facing_logit = logit;
+    return out;
+}
+
+TEST(Facing, OtherCamerasAreBelievedAsFarAsTheirFrameIsSure) {
+    const auto away_after = [](float own_logit, const std::vector<Body>& others) {
+        Facing facing;
+        SeenJoints joints;
+        for (int i = 0; i < 5; ++i)
+            joints = standing(), facing.apply(own_logit, Vec3(0, -1, 0), joints, others);
+        return facing.away();
+    };
+    EXPECT_TRUE(away_after(2.0f, {}));
+    EXPECT_FALSE(away_after(2.0f, {elsewhere(true, 3.0f)}));
+    EXPECT_TRUE(away_after(2.0f, {elsewhere(true, 1.0f)})) << "its frame is not sure";
+    EXPECT_TRUE(away_after(-2.0f, {elsewhere(false, 3.0f)}));
+    EXPECT_TRUE(away_after(2.0f, {elsewhere(true, -1.0f)})) << "its frame contradicts what it decided";
+    EXPECT_FALSE(away_after(-2.0f, {elsewhere(true, 3.0f), elsewhere(true, 3.0f), elsewhere(false, 3.0f)}));
+}
+
+TEST(Facing, WhoStandsElsewhereSaysNothing) {
+    Facing facing;
+    Body other = elsewhere(false, 3.0f);
+    for (Joint& joint : other.joints) joint.position += Vec3(0.6f, 0.0f, 0.0f);
+    Body cut = elsewhere(false, 3.0f);
+    cut.set(VFIT_JOINT_LEFT_HIP, Vec3(0.0f), VFIT_JOINT_NOT_SEEN);
+    for (int i = 0; i < 5; ++i) {
+        SeenJoints joints = standing();
+        facing.apply(-0.5f, Vec3(0, -1, 0), joints, std::vector<Body>{other, cut});
+    }
+    EXPECT_FALSE(facing.away());
+}
+
+TEST(Facing, TwoThatAreWrongOfFourAreNoEcho) {
+    // Each hears the others' frames: two are wrong and less sure, whatever was decided first.
+    Facing cameras[4];
+    const float says[] = {-3.0f, 2.0f, 2.0f, -2.5f};
+    std::vector<Body> bodies(4);
+    for (int frame = 0; frame < 20; ++frame)
+        for (size_t k = 0; k < 4; ++k) {
+            std::vector<Body> others;
+            for (size_t other = 0; other < 4; ++other)
+                if (other != k && frame > 3) others.push_back(bodies[other]);
+            SeenJoints joints = standing();
+            cameras[k].apply(says[k], Vec3(0, -1, 0), joints, others);
+            bodies[k] = elsewhere(!cameras[k].away(), cameras[k].agreement());
+        }
+    for (const Facing& camera : cameras) EXPECT_FALSE(camera.away());
+    EXPECT_LT(cameras[1].agreement(), 0.0f) << "its own frames say otherwise";
+}
+
 TEST(Facing, AnAnswerThatIsNoNumberDoesNotCount) {
     Facing facing;
     SeenJoints joints = standing();

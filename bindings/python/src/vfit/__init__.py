@@ -41,6 +41,7 @@ from ._vfit import (
     Tracker,
     __version__,
     add_to_calibration,
+    align_worlds,
     calibrate,
     calibrated_measures,
     info,
@@ -100,6 +101,7 @@ from .values import (
     SizeRow,
     SizeZone,
     StageTime,
+    WorldPlace,
 )
 
 __all__ = [
@@ -179,8 +181,10 @@ __all__ = [
     "Tracker",
     "UnsupportedError",
     "VersionError",
+    "WorldPlace",
     "__version__",
     "add_to_calibration",
+    "align_worlds",
     "calibrate",
     "calibrated_measures",
     "info",

@@ -55,6 +55,7 @@ from .values import (
     SizeRow,
     SizeZone,
     StageTime,
+    WorldPlace,
 )
 
 _Path = Union[str, "PathLike[str]"]
@@ -190,6 +191,7 @@ class Guidance(IntEnum):
     FACE_CAMERA = 10
     TURN_ROUND = 11
     TURN_SLOWER = 12
+    ARMS_FORWARD = 13
 
 class Joint(IntEnum):
     """What a sensor sees. LEFT is the person's own left."""
@@ -444,6 +446,16 @@ class Tracker(_Closable):
     ) -> None:
         """Joints that you see in the image, as (x, y) or (x, y, confidence) in pixels of the depth image, for
         the next update or track alone. body_id 0: of whose pixel each is."""
+    def hint_from(
+        self,
+        seen: Frame,
+        position: Tuple[float, float, float],
+        rotation: Tuple[float, float, float, float] = ...,
+        body_id: Optional[int] = None,
+    ) -> None:
+        """A person as the tracker of another camera saw them at most about 50 ms ago, for the next update
+        alone: it tells which way they face. position and rotation (xyzw): its world space in this one's
+        (align_worlds). Default: its active body."""
     def choose(self, body_id: Optional[int]) -> None:
         """That person is the active one from the next frame on; when they have left for two seconds the rule
         holds again. None: by the rule again."""
@@ -460,6 +472,10 @@ class Tracker(_Closable):
         """The frame with a body of your own; submit to the result to add a second one."""
     def reset(self) -> None: ...
 
+def align_worlds(context: Context, here: NDArray[np.float32], there: NDArray[np.float32]) -> WorldPlace:
+    """Where another camera's world space lies in this one's, from points (n, 3) that both saw at the same
+    times: middle joints (PELVIS, CHEST, NECK, HEAD) of a person who walks about."""
+
 class Scan(_Closable):
     """Measures one person over several frames; closing it wipes the body data."""
 
@@ -474,8 +490,10 @@ class Scan(_Closable):
         bare: bool = False,
         tight: bool = False,
         turn: bool = False,
+        cameras: int = 1,
     ) -> None: ...
-    def add(self, frame: Frame, body_id: Optional[int] = None) -> ScanState: ...
+    def add(self, frame: Frame, body_id: Optional[int] = None, camera: int = 0) -> ScanState:
+        """camera: which of several saw the frame, each with a tracker of its own."""
     def measure(self) -> dict[str, Measurement]: ...
     def sex(self) -> Tuple[Sex, float]:
         """(sex, probability): as the scan was told, else as it infers from the fitted body."""

@@ -56,6 +56,7 @@ __all__ = [
     "SizeRow",
     "SizeZone",
     "StageTime",
+    "WorldPlace",
 ]
 
 Vector = Tuple[float, float, float]
@@ -272,6 +273,16 @@ class Scale(NamedTuple):
 class Size(NamedTuple):
     label: str
     probability: float
+
+
+class WorldPlace(NamedTuple):
+    """Where another camera's world space lies in this one's."""
+
+    position: Tuple[float, float, float]
+    rotation: Tuple[float, float, float, float]
+    """x, y, z, w."""
+    rms: float
+    """What is left between the points that told it."""
 
 
 class CalibratedMeasure(NamedTuple):

@@ -115,6 +115,25 @@ namespace Vfit
             return any;
         }
 
+        /// <summary>
+        /// Where another camera's world space lies in this one's, from points that both saw at the same
+        /// times: middle joints (Pelvis, Chest, Neck, Head) of a person who walks about. Returns what is left
+        /// between them.
+        /// </summary>
+        public float AlignWorlds(Float3[] here, Float3[] there, out Float3 position, out Float4 rotation)
+        {
+            Arrays.Check(here, here == null ? 0 : here.Length, "here");
+            Arrays.Check(there, here.Length, "there");
+            Float3 at;
+            Float4 turn;
+            float rms;
+            fixed (Float3* a = here, b = there)
+                Calls.WorldAlign(Handle, (float*)a, (float*)b, (uint)here.Length, &at.X, &turn.X, &rms);
+            position = at;
+            rotation = turn;
+            return rms;
+        }
+
         /// <summary>Loads a sensor plug-in from its file.</summary>
         public void LoadPlugin(string path)
         {

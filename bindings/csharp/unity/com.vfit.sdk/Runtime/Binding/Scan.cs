@@ -25,6 +25,17 @@ namespace Vfit
             return result;
         }
 
+        /// <summary>The same of several cameras: which one saw the frame, from 0 on.</summary>
+        public Result AddFrom(uint camera, Frame tracked, uint bodyId, out ScanState state)
+        {
+            var filled = new ScanState();
+            filled.StructSize = (uint)sizeof(ScanState);
+            Result result =
+                Calls.ScanAddFrom(Handle, camera, Frame.Of(tracked, "tracked"), bodyId, &filled);
+            state = filled;
+            return result;
+        }
+
         /// <summary>The same for the active person.</summary>
         public Result Add(Frame tracked, out ScanState state)
         {

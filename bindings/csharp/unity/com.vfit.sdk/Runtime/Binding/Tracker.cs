@@ -48,6 +48,15 @@ namespace Vfit
                 Calls.TrackerHint(Handle, items, (uint)sizeof(JointHint), (uint)count);
         }
 
+        /// <summary>
+        /// For the next update: a person as the tracker of another camera saw them, which tells which way
+        /// they face. position and rotation: its world space in this one's (Context.AlignWorlds).
+        /// </summary>
+        public void HintFrom(Frame seen, uint bodyId, Float3 position, Float4 rotation)
+        {
+            Calls.TrackerHintFrom(Handle, Frame.Of(seen, "seen"), bodyId, &position.X, &rotation.X);
+        }
+
         /// <summary>Forgets people, room and choice.</summary>
         public void Reset()
         {

@@ -1043,6 +1043,42 @@ namespace Vfit
             }
         }
 
+        internal static Result TrackerHintFrom(TrackerHandle tracker, FrameHandle seen, uint bodyId,
+            float* position, float* rotation)
+        {
+            bool trackerHeld = false;
+            bool seenHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_tracker_hint_from(
+                    new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld)),
+                    new FrameId(VfitHandle.Hold(seen, ref seenHeld)), bodyId, position, rotation));
+                return result;
+            }
+            finally
+            {
+                if (trackerHeld) tracker.DangerousRelease();
+                if (seenHeld) seen.DangerousRelease();
+            }
+        }
+
+        internal static Result WorldAlign(ContextHandle context, float* here, float* there, uint count,
+            float* position, float* rotation, float* rms)
+        {
+            bool contextHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_world_align(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), here, there, count, position,
+                    rotation, rms));
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
+        }
+
         internal static Result TrackerReset(TrackerHandle tracker)
         {
             bool trackerHeld = false;
@@ -1159,6 +1195,25 @@ namespace Vfit
                 Result result = VfitException.Check(Native.vfit_scan_add(
                     new ScanId(VfitHandle.Hold(scan, ref scanHeld)), new FrameId(VfitHandle.Hold(tracked,
                     ref trackedHeld)), bodyId, state));
+                return result;
+            }
+            finally
+            {
+                if (scanHeld) scan.DangerousRelease();
+                if (trackedHeld) tracked.DangerousRelease();
+            }
+        }
+
+        internal static Result ScanAddFrom(ScanHandle scan, uint camera, FrameHandle tracked, uint bodyId,
+            ScanState* state)
+        {
+            bool scanHeld = false;
+            bool trackedHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_scan_add_from(
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld)), camera,
+                    new FrameId(VfitHandle.Hold(tracked, ref trackedHeld)), bodyId, state));
                 return result;
             }
             finally

@@ -280,6 +280,25 @@ namespace Vfit
         internal static extern Result vfit_tracker_hint(TrackerId tracker, JointHint* items, uint stride,
             uint count);
 
+        /// <summary>For the next update alone: a person as another camera saw them at most about 50 ms ago,
+        /// which says whether they face this one: front and back look alike in depth. What single frames of
+        /// all cameras say is weighed, a body of a source or the host being sure. position and rotation (x,
+        /// y, z, w): the other camera's world space in this one's (vfit_world_align); within 0.3 m at the
+        /// person and 20 degrees is good enough. A second call adds another person or camera. Does nothing
+        /// where the joints are the source's. [excl]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_tracker_hint_from(TrackerId tracker, FrameId seen, uint bodyId,
+            float* position, float* rotation);
+
+        /// <summary>Where another camera's world space lies in this one's, from count points (3 floats each)
+        /// that both saw at the same times, as joints of a person who walks about: MIDDLE joints, so that
+        /// nothing hangs on left and right. Both worlds have the same up. Single points that are wrong hardly
+        /// count. rms (may be null) is what is left between them. Fewer than 8 points, or all within 0.3 m:
+        /// VFIT_ERROR_DATA. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_world_align(ContextId context, float* here, float* there,
+            uint count, float* position, float* rotation, float* rms);
+
         /// <summary>Forgets people, room and choice. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_tracker_reset(TrackerId tracker);
@@ -318,6 +337,14 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_scan_add(ScanId scan, FrameId tracked, uint bodyId,
             ScanState* state);
+
+        /// <summary>The same of several cameras, each with a tracker of its own: camera, from 0 on, says
+        /// which one saw the frame. First come the frames from the front and the side, from whichever cameras
+        /// see the person so, then a few of each camera; turn_seen has the ways that all see. guidance is of
+        /// this camera: tell the person what the one says that they are to face. [excl]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_scan_add_from(ScanId scan, uint camera, FrameId tracked,
+            uint bodyId, ScanState* state);
 
         /// <summary>From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE.
         /// [read]</summary>

@@ -278,6 +278,8 @@ namespace Vfit
         /// <summary>go on turning: that way has been seen</summary>
         TurnRound = 11,
         TurnSlower = 12,
+        /// <summary>from the side an arm hides the trunk</summary>
+        ArmsForward = 13,
     }
 
     [Flags]
@@ -876,7 +878,7 @@ namespace Vfit
         public float Confidence;
     }
 
-    [StructLayout(LayoutKind.Sequential, Size = 24)]
+    [StructLayout(LayoutKind.Sequential, Size = 28)]
     public unsafe partial struct ScanDesc
     {
         internal uint StructSize;
@@ -886,8 +888,12 @@ namespace Vfit
         public Sex Sex;
         /// <summary>of FIT: frames from the side, 15 are enough; 0: none are waited for</summary>
         public uint SideFrameCount;
-        /// <summary>VFIT_SCAN_*</summary>
+        /// <summary>VFIT_SCAN_* Of FIT: cameras that see the person at once (vfit_scan_add_from), at most 8;
+        /// 0: one. Where three or more show the person all around, or from before, behind and one side,
+        /// girths of the trunk from the surface that they see together are combined with those of the other
+        /// views. Not with VFIT_SCAN_TURN.</summary>
         public ScanFlags Flags;
+        public uint CameraCount;
     }
 
     [StructLayout(LayoutKind.Sequential, Size = 40)]
