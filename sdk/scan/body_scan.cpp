@@ -54,6 +54,10 @@ float BodyScan::facing(const Camera& camera) const {
     return facing_rad(camera, fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1));
 }
 
+float BodyScan::pixel_m(const Camera& camera) const {
+    return fit().pose.hips.z / std::sqrt(camera.fx * camera.fy);
+}
+
 float BodyScan::outline_loss_m() const {
     return sums_.frames ? outline_loss_px() * float(sums_.pixel_m / sums_.frames) : 0.0f;
 }
@@ -72,6 +76,10 @@ void BodyScan::keep_turning(const DepthImage& image, const Body& body) {
     ring_.add(way);
     turn_.emplace_back();
     look_at_trunk(image, uint8_t(body.id), fit_, turn_.back());
+    // Of this camera, where it sees a background.
+    OutlineLoss loss;
+    loss.add(image, uint8_t(body.id));
+    turn_.back().outline_loss_m = (loss.seen() ? loss.pixels() : outline_loss_px()) * pixel_m(image.camera);
 }
 
 ViewKind BodyScan::add(const DepthImage& image, const Body& body) {
@@ -88,7 +96,7 @@ ViewKind BodyScan::add(const DepthImage& image, const Body& body) {
     const double turned = double(std::abs(faces)) - (view == ViewKind::kSide ? 0.5 * double(kPi) : 0.0);
     sums_.turned_rad[size_t(view)] += turned;
     sums_.turned_squared[size_t(view)] += turned * turned;
-    sums_.pixel_m += double(fit().pose.hips.z / std::sqrt(image.camera.fx * image.camera.fy));
+    sums_.pixel_m += double(pixel_m(image.camera));
     if (const Top top = top_of_head(image, user); top.hidden) {
         sums_.bound_m += double(top.height_m);
         ++sums_.bounds;

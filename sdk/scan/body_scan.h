@@ -62,7 +62,7 @@ public:
     /// How many views keep_turning() has kept.
     size_t views_of_turn() const { return turn_.size(); }
     /// The surface that they show. 0.15 s after a whole turn.
-    TurnedTrunk turned_trunk() const { return TurnedTrunk(turn_, outline_loss_m()); }
+    TurnedTrunk turned_trunk() const { return TurnedTrunk(turn_); }
     /// The shape of all frames together.
     const FitShape& shape() const { return fit_.output().pose.shape; }
     const BodyFitOutput& fit() const { return fit_.output(); }
@@ -80,6 +80,8 @@ private:
     bool run_fit(const DepthImage& image, const Body& body);
     /// How far the fitted body is turned to its left from facing the camera, radians.
     float facing(const Camera& camera) const;
+    /// Of an image, at the person.
+    float pixel_m(const Camera& camera) const;
     /// What the sensor loses of an outline, metres at the person.
     float outline_loss_m() const;
     struct Top {

@@ -14,7 +14,7 @@ namespace vfit {
 
 namespace {
 
-constexpr int kVersion = 7;
+constexpr int kVersion = 8;
 constexpr float kFarthest = 5.0f;  // deviations: what lies farther tells no more
 // What of the body itself lies farther out than nearly all grown-ups' do, a child's crown say, is guessed at:
 // linear rules do not reach there.
@@ -81,6 +81,18 @@ struct Chosen {
         return out;
     }
 };
+
+TurnedGirths girths_of(const Json& object, const std::string& where) {
+    TurnedGirths out;
+    for (size_t k = 0; k < kTurnedKeys.size(); ++k) {
+        const std::string key(kTurnedKeys[k]), what = where + ", " + key;
+        const Json& one = field(object, key.c_str(), where);
+        out[k] = {number(field(one, "offset", what), what), number(field(one, "sigma", what), what)};
+        if (!(out[k].sigma_m > 0.0f))
+            fail(VFIT_ERROR_DATA, "measure model: ", what, ": sigma is not above 0");
+    }
+    return out;
+}
 
 }  // namespace
 
@@ -159,20 +171,13 @@ MeasureModel MeasureModel::parse(std::string_view text) {
                       [](const Row& a, const Row& b) { return measure_index(a.key) < measure_index(b.key); });
         }
     }
-    const Json& turn = field(file, "turn", "the file");
-    for (const auto& [clothes, of_clothes] :
-         {std::pair("any", &model.turned_[0]), {"tight", &model.turned_[1]}})
-        for (const auto& [sex, girths] :
-             {std::pair("male", &(*of_clothes)[0]), {"female", &(*of_clothes)[1]}})
-            for (size_t k = 0; k < kTurnedKeys.size(); ++k) {
-                const std::string key(kTurnedKeys[k]),
-                    what = std::string("turn, ") + clothes + ", " + sex + ", " + key;
-                const Json& one = field(field(field(turn, clothes, what), sex, what), key.c_str(), what);
-                TurnedGirth& girth = (*girths)[k];
-                girth = {number(field(one, "offset", what), what), number(field(one, "sigma", what), what)};
-                if (!(girth.sigma_m > 0.0f))
-                    fail(VFIT_ERROR_DATA, "measure model: ", what, ": sigma is not above 0");
-            }
+    for (const auto& [view, of_view] : {std::pair("turn", &model.turned_[0]), {"cameras", &model.turned_[1]}})
+        for (const auto& [clothes, of_clothes] :
+             {std::pair("any", &(*of_view)[0]), {"tight", &(*of_view)[1]}})
+            for (const auto& [sex, girths] :
+                 {std::pair("male", &(*of_clothes)[0]), {"female", &(*of_clothes)[1]}})
+                *girths = girths_of(field(field(field(file, view, "the file"), clothes, view), sex, clothes),
+                                    std::string(view) + ", " + clothes + ", " + sex);
     return model;
 }
 
@@ -265,8 +270,8 @@ std::vector<Measurement> MeasureModel::measure_anybody(const ScanFeatures& featu
         const bool woman = one == VFIT_SEX_FEMALE;
         std::vector<Measurement> list = learnt.measure(one, seen);
         if (turn)
-            combine_with_turn(list, woman ? turn->female : turn->male, turned_[kind.tight][woman],
-                              turn->doubt * seen.doubt);
+            combine_with_turn(list, woman ? turn->female : turn->male,
+                              turned_[turn->by_cameras][kind.tight][woman], turn->doubt * seen.doubt);
         return list;
     };
     if (sex != VFIT_SEX_UNKNOWN) return of_sex(sex);

@@ -96,7 +96,8 @@ private:
     const Part& part(ScanKind kind) const { return parts_[(kind.side ? 1u : 0u) + (kind.tight ? 2u : 0u)]; }
 
     std::array<Part, 4> parts_;
-    std::array<std::array<TurnedGirths, 2>, 2> turned_{};  // any clothes, tight ones; men, women
+    // Of a turn, of several cameras; any clothes, tight ones; men, women.
+    std::array<std::array<std::array<TurnedGirths, 2>, 2>, 2> turned_{};
 };
 
 }  // namespace vfit

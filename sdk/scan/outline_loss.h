@@ -16,6 +16,8 @@ public:
     void add(const DepthImage& image, uint8_t user);
     /// Mean over the outlines of all frames, in pixels; 0 where nothing was seen behind any of them.
     float pixels() const { return count_ ? float(double(gaps_) / double(count_) / 2.0) : 0.0f; }
+    /// Whether a background was seen.
+    bool seen() const { return count_ > 0; }
     void reset() { gaps_ = count_ = 0; }
 
 private:

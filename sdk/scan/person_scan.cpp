@@ -132,7 +132,9 @@ bool PersonScan::all_cameras_seen() const {
 
 vfit_guidance PersonScan::look_around(const ScanFrame& frame) {
     if (views_of_camera_[frame.camera] >= kViewsOfCamera) return VFIT_GUIDANCE_HOLD_STILL;  // for the others
-    if (!arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
+    // From the side the trunk hides a hand: where it is taken to be says nothing.
+    const bool side = view_of(frame.image.camera, *frame.body) == ViewKind::kSide;
+    if (!side && !arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
     if (!before_turn_) before_turn_ = body_->features(with_side());
     const auto turned = body_->fit_turning(frame.image, *frame.body);
     if (!turned) return VFIT_GUIDANCE_HOLD_STILL;
@@ -167,7 +169,7 @@ const SeenOfTurn* PersonScan::seen_of_turn() const {
     if (!(several_cameras() ? ring_.surrounded() : ring_.closed())) return nullptr;
     if (turned_views_ != body_->views_of_turn()) {
         turned_.emplace(body_->turned_trunk(),
-                        several_cameras() ? ring_.doubt_between_cameras() : ring_.doubt());
+                        several_cameras() ? ring_.doubt_between_cameras() : ring_.doubt(), several_cameras());
         turned_views_ = body_->views_of_turn();
     }
     return &*turned_;

@@ -31,11 +31,15 @@ SeenMeasures seen_measures(const TurnedTrunk& trunk, bool female);
 
 /// By the levels of each sex.
 struct SeenOfTurn {
-    explicit SeenOfTurn(const TurnedTrunk& trunk, float doubt = 1.0f)
-        : male(seen_measures(trunk, false)), female(seen_measures(trunk, true)), doubt(doubt) {}
+    explicit SeenOfTurn(const TurnedTrunk& trunk, float doubt = 1.0f, bool by_cameras = false)
+        : male(seen_measures(trunk, false)),
+          female(seen_measures(trunk, true)),
+          doubt(doubt),
+          by_cameras(by_cameras) {}
 
     SeenMeasures male, female;
-    float doubt;  // how many times wider its errors are than those of a whole turn
+    float doubt;      // how many times wider its errors are than those that were learnt
+    bool by_cameras;  // a few views from all around instead of a turn
 };
 
 }  // namespace vfit

@@ -24,6 +24,8 @@ struct TrunkView {
 
     /// How far the person is turned to the camera's right from facing it, radians.
     float facing_rad = 0.0f;
+    /// What the sensor loses of this outline, metres.
+    float outline_loss_m = 0.0f;
     /// Towards the camera; NaN where nothing of the trunk is seen.
     std::array<std::array<float, kColumns>, kLevels> towards_m{};
     /// How far the line of sight along the outline passes from the spine; NaN where an arm or the image's

@@ -29,8 +29,8 @@ float girth_of(const TrunkSection& section) {
 
 }  // namespace
 
-TurnedTrunk::TurnedTrunk(const std::vector<TrunkView>& views, float outline_loss_m) {
-    fuse_views(views, outline_loss_m, sections_);
+TurnedTrunk::TurnedTrunk(const std::vector<TrunkView>& views) {
+    fuse_views(views, sections_);
     for (int l = 0; l < kLevels; ++l)
         girths_m_[size_t(l)] =
             TrunkProfile::along(l) < kLegsApart ? std::nanf("") : girth_of(sections_[size_t(l)]);

@@ -13,8 +13,8 @@ class TurnedTrunk {
 public:
     static constexpr int kLevels = TrunkView::kLevels;
 
-    /// `outline_loss_m`: what the sensor loses of every outline. 0.15 s for 72 views.
-    TurnedTrunk(const std::vector<TrunkView>& views, float outline_loss_m);
+    /// 0.15 s for 72 views.
+    explicit TurnedTrunk(const std::vector<TrunkView>& views);
     /// Overwrites the body's form.
     ~TurnedTrunk();
     TurnedTrunk(const TurnedTrunk&) = default;

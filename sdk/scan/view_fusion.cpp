@@ -148,8 +148,7 @@ void solve(std::vector<double>& a, std::vector<double>& b) {
 /// section 6.1): each one hangs on the poses alone.
 class Fusion {
 public:
-    Fusion(const std::vector<TrunkView>& views, float outline_loss_m, TrunkSections& sections)
-        : outline_loss_m_(outline_loss_m), sections_(sections) {
+    Fusion(const std::vector<TrunkView>& views, TrunkSections& sections) : sections_(sections) {
         for (const TrunkView& view : views) seen_.emplace_back(view);
         cells_.resize(seen_.size() * kCells);
         for (TrunkSection& section : sections_) section.radii_m.fill(kStart_m);
@@ -250,7 +249,7 @@ private:
                                      (side == TrunkView::kRightOfPicture ? 1.0f : -1.0f);
                 const Touch touch(points_[size_t(l)], square - s.facing());
                 const Vec2 way(std::sin(square), std::cos(square));
-                const float off = reach + outline_loss_m_ + glm::dot(shift, way) - touch.support;
+                const float off = reach + s.view->outline_loss_m + glm::dot(shift, way) - touch.support;
                 // Along the radius, as the surface's.
                 const float upright = std::max(kGrazing, touch.support / glm::length(touch.point));
                 const float weight =
@@ -340,7 +339,6 @@ private:
         if (!last) bridge(sections_[level], shown);
     }
 
-    float outline_loss_m_;
     TrunkSections& sections_;
     std::array<std::array<Vec2, TrunkSection::kDirections>, size_t(TrunkView::kLevels)> normals_{}, points_{};
     std::vector<Seen> seen_;
@@ -352,8 +350,8 @@ private:
 
 }  // namespace
 
-void fuse_views(const std::vector<TrunkView>& views, float outline_loss_m, TrunkSections& sections) {
-    Fusion(views, outline_loss_m, sections).run();
+void fuse_views(const std::vector<TrunkView>& views, TrunkSections& sections) {
+    Fusion(views, sections).run();
 }
 
 }  // namespace vfit

@@ -24,7 +24,7 @@ struct TrunkSection {
 };
 using TrunkSections = std::array<TrunkSection, size_t(TrunkView::kLevels)>;
 
-/// `outline_loss_m`: what the sensor loses of every outline. 0.15 s for 72 views.
-void fuse_views(const std::vector<TrunkView>& views, float outline_loss_m, TrunkSections& sections);
+/// 0.15 s for 72 views.
+void fuse_views(const std::vector<TrunkView>& views, TrunkSections& sections);
 
 }  // namespace vfit

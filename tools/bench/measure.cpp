@@ -11,6 +11,7 @@
 #include "bench/measure_sets.h"
 #include "bench/track_play.h"
 #include "client/assets.h"
+#include "client/cameras.h"
 #include "client/output.h"
 #include "client/people.h"
 
@@ -127,11 +128,7 @@ public:
         if (view_ == "turn")
             play(scene_.turn_uri(person), false);
         else
-            for (uint32_t camera = 0; camera < kCameras; ++camera) {
-                // Each has a tracker of its own.
-                tracker_ = open_own_tracker(context_.get());
-                play(scene_.around_uri(person, 360.0f * float(camera) / float(kCameras)), false, camera);
-            }
+            look_around(person);
         if (result_ == VFIT_OK) return true;
         std::cerr << "no whole " << view_ << ": " << guidance_text(state_.guidance) << ": "
                   << scene_.turn_uri(person) << "\n";
@@ -153,20 +150,42 @@ public:
 private:
     static constexpr uint32_t kCameras = 4;
 
-    void play(const std::string& uri, bool front, uint32_t camera = 0) {
+    /// By all cameras at once, which know how they stand to each other.
+    void look_around(const PersonOfPopulation& person) {
+        std::vector<std::string> uris;
+        std::vector<CameraPlace> places;
+        const float far_m = scene_.distance_to(person);
+        for (const SceneCamera& camera : scene_.around(person)) {
+            const float turned_rad = camera.turned_deg * 0.017453292f;
+            uris.push_back(camera.uri);
+            places.push_back(
+                {turned_rad, {far_m * std::sin(turned_rad), 0.0f, far_m * (std::cos(turned_rad) - 1.0f)}});
+        }
+        TrackOptions own;
+        own.joints = own.user_map = VFIT_TRACK_BUILT_IN;
+        Cameras cameras(context_.get(), uris, own, places);
+        while (cameras.next())
+            for (uint32_t camera = 0; camera < kCameras; ++camera)
+                add(cameras.tracked(camera), false, camera);
+    }
+
+    void play(const std::string& uri, bool front) {
         Source source(context_.get(), uri);
         while (const auto frame = source.next()) {
             Frame tracked;
             check(vfit_tracker_update(tracker_.get(), frame->get(), tracked.out()));
-            const auto bodies = bodies_of(tracked.get());
-            if (bodies.empty()) continue;
-            const uint32_t body = bodies.front().body_id;
-            result_ = check(vfit_scan_add_from(fit_.get(), camera, tracked.get(), body, &state_));
-            // A scan that is complete looks no further.
-            if (state_.compute_ms > 0.0f) last_frame_ms_ = double(state_.compute_ms);
-            check(vfit_scan_add_from(told_.get(), camera, tracked.get(), body, nullptr));
-            if (front) check(vfit_scan_add(paper_.get(), tracked.get(), body, nullptr));
+            add(tracked.get(), front);
         }
+    }
+    void add(vfit_frame tracked, bool front, uint32_t camera = 0) {
+        const auto bodies = bodies_of(tracked);
+        if (bodies.empty()) return;
+        const uint32_t body = bodies.front().body_id;
+        result_ = check(vfit_scan_add_from(fit_.get(), camera, tracked, body, &state_));
+        // A scan that is complete looks no further.
+        if (state_.compute_ms > 0.0f) last_frame_ms_ = double(state_.compute_ms);
+        check(vfit_scan_add_from(told_.get(), camera, tracked, body, nullptr));
+        if (front) check(vfit_scan_add(paper_.get(), tracked, body, nullptr));
     }
 
     const ScanScene& scene_;

@@ -23,7 +23,7 @@ namespace {
 struct Options {
     uint32_t count = 10, first = 0, seed = 1000, scans = 2;
     std::string space = "in", out, recordings;
-    bool turn = false;
+    bool turn = false, cameras = false;
 };
 
 /// The active person's joints in camera space.
@@ -183,6 +183,16 @@ void run(const Options& o) {
                 play(scene.turn_uri(person), context.get(), other.get(), turn, [] {}, Turning::kYes);
                 line["seen_turn"] = seen_turning(turn, person.sex == VFIT_SEX_FEMALE);
             }
+            line["seen_cameras"] = Json();
+            if (o.cameras) {
+                BodyScan around(model);
+                play(scene.front_uri(person), context.get(), tracker.get(), around);
+                for (const SceneCamera& camera : scene.around(person)) {
+                    const Tracker own = open_own_tracker(context.get());
+                    play(camera.uri, context.get(), own.get(), around, [] {}, Turning::kYes);
+                }
+                line["seen_cameras"] = seen_turning(around, person.sex == VFIT_SEX_FEMALE);
+            }
             file << line.dump() << std::endl;
         }
     }
@@ -206,6 +216,7 @@ void add_scan_features(Command& app) {
                        "Instead of generated people: a folder of recordings with a truth.json each "
                        "(tools/judge_measures)");
     command.add_flag("--turn", o->turn, "A turn on the spot as well");
+    command.add_flag("--cameras", o->cameras, "Four cameras around the person as well");
     command.add_option("--out", o->out, "File of JSON lines that is added to").required();
     command.callback([o] { run(*o); });
 }

@@ -17,7 +17,8 @@ std::string text_of(float value) {
 }
 
 // Nearer, a Kinect v1 does not see head and feet at once; a time-of-flight camera sees more.
-constexpr float kNearestKinect_m = 2.65f, kNearestTof_m = 2.4f, kFarthest_m = 3.1f, kTall_m = 1.85f;
+constexpr float kNearestKinect_m = 2.65f, kNearestTof_m = 2.4f, kFarthest_m = 3.1f, kTall_m = 1.85f,
+                kTaller_m = 0.3f;
 constexpr float kWall_m = 0.7f;
 constexpr float kThickest_m = 0.03f;
 // The camera's height: half of them about a metre, the others from a low table up to a shelf.
@@ -76,14 +77,12 @@ ScanScene ScanScene::again(uint32_t day) const {
 }
 
 std::string ScanScene::uri(const PersonOfPopulation& person) const {
-    // All of a tall person is in view from farther away only.
-    const double far = person.measures.at("stature_m") > double(kTall_m) ? 0.3 : 0.0;
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out << "virtual:" << person.options() << "&sensor=" << sensor << "&seed=" << seed
-        << "&distance=" << double(distance_m) + far << "&camera_height=" << camera_height_m
-        << "&tilt=" << tilt_deg << "&floor=" << (floor_given ? "given" : "unknown") << "&top=" << top_m
-        << "&sleeves=" << sleeves_m << "&trousers=" << trousers_m;
+        << "&distance=" << distance_to(person) << "&camera_height=" << camera_height_m << "&tilt=" << tilt_deg
+        << "&floor=" << (floor_given ? "given" : "unknown") << "&top=" << top_m << "&sleeves=" << sleeves_m
+        << "&trousers=" << trousers_m;
     // Before a wall that both sensors see: without one it cannot be told where the head ends.
     if (black_hair_m > 0.0f) out << "&black_hair=" << black_hair_m << "&wall=" << kWall_m;
     return out.str();
@@ -104,9 +103,25 @@ std::string ScanScene::turn_uri(const PersonOfPopulation& person) const {
            "&rate=15&frames=" + std::to_string(turn_frames);
 }
 
-std::string ScanScene::around_uri(const PersonOfPopulation& person, float more_deg) const {
-    return uri(person) + "&motion=scan&facing=" + text_of(turned_deg + more_deg) +
-           "&arms=" + text_of(turn_arms_deg) + "&frames=" + std::to_string(around_frames);
+std::vector<SceneCamera> ScanScene::around(const PersonOfPopulation& person) const {
+    constexpr int kCameras = 4;
+    Random random(seed ^ 0x3c4du);
+    std::vector<SceneCamera> out;
+    float first_deg = 0.0f;
+    for (int k = 0; k < kCameras; ++k) {
+        const float facing_deg =
+            turned_deg + 360.0f * float(k) / float(kCameras) + random.between(-kTurned_deg, kTurned_deg);
+        if (k == 0) first_deg = facing_deg;
+        out.push_back({uri(person) + "&motion=scan&facing=" + text_of(facing_deg) +
+                           "&arms=" + text_of(turn_arms_deg) + "&frames=" + std::to_string(around_frames),
+                       first_deg - facing_deg});
+    }
+    return out;
+}
+
+float ScanScene::distance_to(const PersonOfPopulation& person) const {
+    // All of a tall person is in view from farther away only.
+    return distance_m + (person.measures.at("stature_m") > double(kTall_m) ? kTaller_m : 0.0f);
 }
 
 Json ScanScene::json() const {

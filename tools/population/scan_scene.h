@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/json.h"
 #include "population/population.h"
@@ -13,6 +14,12 @@ enum class Dress {
     kTight,     // skin
     kClothed,   // each zone evenly between 0 and 3 cm
     kTraining,  // nearly half of them tight, else thicknesses of another distribution than kClothed's
+};
+
+/// One of several cameras around a person.
+struct SceneCamera {
+    std::string uri;
+    float turned_deg = 0.0f;  // of its world space in that of the first one, to the left
 };
 
 /// All that is random follows from the seed.
@@ -38,8 +45,10 @@ struct ScanScene {
     std::string front_uri(const PersonOfPopulation& person) const;
     std::string side_uri(const PersonOfPopulation& person) const;
     std::string turn_uri(const PersonOfPopulation& person) const;
-    /// Arms out, by a camera before which the person is turned by that much more.
-    std::string around_uri(const PersonOfPopulation& person, float more_deg) const;
+    /// Arms out, by four cameras around the person.
+    std::vector<SceneCamera> around(const PersonOfPopulation& person) const;
+    /// Of the person from every camera.
+    float distance_to(const PersonOfPopulation& person) const;
     Json json() const;
 
 private:

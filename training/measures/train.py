@@ -458,7 +458,7 @@ def main():
     arguments = parser.parse_args()
     rows = read(arguments.scans)
     keys = sorted({key for r in rows for key in r["truth"] if not key.startswith("navel_")})
-    model = {"format": "vfit-measure-model", "version": 7, "unit": UNIT, "unit_of_places": UNIT_OF_PLACES}
+    model = {"format": "vfit-measure-model", "version": 8, "unit": UNIT, "unit_of_places": UNIT_OF_PLACES}
     for kind in KINDS:
         model[kind] = train(rows, kind, keys)
     with open(arguments.out, "w") as file:

@@ -63,10 +63,11 @@ Json small_model() {
     for (const std::string_view key : kTurnedKeys) girths[std::string(key)] = girth;
     const Json turned = {{"male", girths}, {"female", girths}};
     return {{"format", "vfit-measure-model"},
-            {"version", 7},
+            {"version", 8},
             {"unit", 1.0f},
             {"unit_of_places", 1.0f},
             {"turn", {{"any", turned}, {"tight", turned}}},
+            {"cameras", {{"any", turned}, {"tight", turned}}},
             {"front", part},
             {"front_and_side", part},
             {"front_tight", part},

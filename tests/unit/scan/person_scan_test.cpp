@@ -8,6 +8,8 @@
 
 #include "avatar/avatar_measures.h"
 #include "core/error.h"
+#include "core/files.h"
+#include "core/json.h"
 #include "scan/scanned_body.h"
 #include "scan_people.h"
 
@@ -206,6 +208,25 @@ TEST_F(PersonScanTest, SeveralCamerasSeeAllRoundAtOnce) {
     scan.reset();
     EXPECT_EQ(scan.turn_seen(), 0u);
     EXPECT_FALSE(scan.complete());
+}
+
+TEST_F(PersonScanTest, SeveralCamerasErrInAWayOfTheirOwn) {
+    const std::vector<std::byte> bytes = read_file(VFIT_SOURCE_DIR "/assets/measures.json");
+    Json file = parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "model");
+    for (const char* view : {"turn", "cameras"})
+        for (const char* sex : {"male", "female"})
+            file[view]["tight"][sex]["hip_girth_m"] = {{"offset", view[0] == 't' ? 0.3f : -0.2f},
+                                                       {"sigma", 1e-4f}};
+    PersonScanDesc around = desc(4, 0);
+    around.tight = true;
+    around.paper.camera_count = 4;
+    around.measure_model = std::make_shared<const MeasureModel>(MeasureModel::parse(file.dump()));
+    PersonScan scan(around);
+    const FitScene views[] = {seen_from(0), seen_from(6), seen_from(12), seen_from(-6)};
+    for (int i = 0; i < 20 && !scan.complete(); ++i)
+        for (uint32_t camera = 0; camera < 4; ++camera) add(scan, views[camera], camera);
+    const auto tape = measure_avatar(avatar_, VFIT_SEX_FEMALE);
+    EXPECT_NEAR(measured(scan, "hip_girth_m").value, find(tape, "hip_girth_m")->value - 0.2f, 0.04f);
 }
 
 TEST_F(PersonScanTest, CamerasInFrontAloneAddNothing) {

@@ -73,7 +73,7 @@ TEST(TurnRing, CamerasThatStandAroundSurroundAPerson) {
     EXPECT_FALSE(ways({0, 6, 18}).surrounded()) << "no back";
     EXPECT_FALSE(ways({}).surrounded());
     EXPECT_GT(ways({0, 6, 12}).doubt_between_cameras(), ways({0, 8, 16}).doubt_between_cameras());
-    EXPECT_GT(ways({0, 6, 12, 18}).doubt_between_cameras(), 1.0f) << "not all is seen as often as in a turn";
+    EXPECT_GT(ways({0, 8, 16}).doubt_between_cameras(), ways({0, 6, 12, 18}).doubt_between_cameras());
 }
 
 }  // namespace
