@@ -564,7 +564,8 @@ VFIT_API vfit_result vfit_tracker_hint(vfit_tracker tracker, const vfit_joint_hi
  * they face this one: front and back look alike in depth. What single frames of all cameras say is weighed, a
  * body of a source or the host being sure. position and rotation (x, y, z, w): the other camera's world space
  * in this one's (vfit_world_align); within 0.3 m at the person and 20 degrees is good enough. A second call
- * adds another person or camera. Does nothing where the joints are the source's. [excl] */
+ * adds another person or camera, up to 8: VFIT_ERROR_CAPACITY. Does nothing where the joints are the
+ * source's. [excl] */
 VFIT_API vfit_result vfit_tracker_hint_from(vfit_tracker tracker, vfit_frame seen, uint32_t body_id,
                                             const float position[3], const float rotation[4]);
 /* Where another camera's world space lies in this one's, from count points (3 floats each) that both saw at
@@ -627,10 +628,11 @@ typedef struct vfit_scan_desc {
     uint32_t side_frame_count; /* of FIT: frames from the side, 15 are enough; 0: none
                                 * are waited for */
     uint32_t flags;            /* VFIT_SCAN_* */
-    /* Of FIT: cameras that see the person at once (vfit_scan_add_from), at most 8; 0: one. Where three or
-     * more show the person all around, or from before, behind and one side, girths of the trunk from the
-     * surface that they see together are combined with those of the other views. Not with VFIT_SCAN_TURN. */
-    uint32_t camera_count;
+    uint32_t camera_count;     /* of FIT alone: cameras that see the person at once (vfit_scan_add_from), at
+                                * most 8; 0: one. Where three or more show the person all around, or from
+                                * before, behind and one side, girths of the trunk from the surface that they
+                                * see together are combined with those of the other views. Not with
+                                * VFIT_SCAN_TURN */
 } vfit_scan_desc;
 typedef struct vfit_scan_state {
     uint32_t struct_size, frames_taken, frames_wanted;
@@ -737,9 +739,9 @@ VFIT_API vfit_result vfit_scan_extend(vfit_scan scan, uint32_t frames, uint32_t 
 VFIT_API vfit_result vfit_scan_add(vfit_scan scan, vfit_frame tracked, uint32_t body_id,
                                    vfit_scan_state* state);
 /* The same of several cameras, each with a tracker of its own: camera, from 0 on, says which one saw the
- * frame. First come the frames from the front and the side, from whichever cameras see the person so, then a
- * few of each camera; turn_seen has the ways that all see. guidance is of this camera: tell the person what
- * the one says that they are to face. [excl] */
+ * frame. First come the frames from the front, then those from the side, from whichever cameras see the
+ * person so, then a few of each camera; turn_seen has the ways that all see. guidance is of this camera; of
+ * one that has shown enough it is what another one still wants. [excl] */
 VFIT_API vfit_result vfit_scan_add_from(vfit_scan scan, uint32_t camera, vfit_frame tracked, uint32_t body_id,
                                         vfit_scan_state* state);
 /* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE. [read] */

@@ -50,12 +50,16 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
         if (d.camera_count > 1 && (d.flags & VFIT_SCAN_TURN))
             fail(VFIT_ERROR_ARGUMENT, "camera_count ", d.camera_count,
                  " with VFIT_SCAN_TURN: a turn is seen by one camera");
+        const bool by_fit = d.method == VFIT_SCAN_FIT || d.method == VFIT_SCAN_DEFAULT;
+        if (d.camera_count > 1 && !by_fit)
+            fail(VFIT_ERROR_ARGUMENT, "camera_count ", d.camera_count,
+                 ": the paper's method measures by one camera");
         PersonScanDesc settings;
         if (d.method == VFIT_SCAN_PROPORTIONS_AS_PRINTED) settings.paper = ScanDesc::as_printed();
         settings.paper.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
         settings.paper.sex = d.sex;
         settings.paper.camera_count = std::max(d.camera_count, 1u);
-        if (d.method == VFIT_SCAN_FIT || d.method == VFIT_SCAN_DEFAULT) {
+        if (by_fit) {
             settings.measure_model = context->measure_model();
             settings.fit_model = context->fit_model().get();
             settings.side_frame_count = d.side_frame_count;

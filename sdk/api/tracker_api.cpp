@@ -34,10 +34,16 @@ struct TrackerObject : ContextChild {
     std::string why_absent;  // as JSON
     ActivePerson active;
     vfit_joint_filter filter = VFIT_FILTER_AUTO;
-    SteadyBodies steady;           // joints that are not the tracker's own
-    std::vector<JointHint> hints;  // for the next update
-    std::vector<Body> elsewhere;   // for it, as other cameras see them, in this one's world space
-    Camera seen_by;                // as the last update knew it
+    SteadyBodies steady;  // joints that are not the tracker's own
+    /// Of what others see.
+    struct Told {
+        std::vector<JointHint> hints;
+        std::vector<Body> elsewhere;  // by other cameras, in this one's world space
+
+        void clear() { hints.clear(), elsewhere.clear(); }
+    };
+    Told told, told_next;  // for this update, for the next one
+    Camera seen_by;        // as the last update knew it
     vfit_track_fit fit = VFIT_FIT_AUTO;
     std::shared_future<std::shared_ptr<const FitModel>> fit_model;
     std::unique_ptr<PeopleFit> fits;  // made for the first person
@@ -73,7 +79,7 @@ struct TrackerObject : ContextChild {
         place(image.camera);
         bring_from_elsewhere(image.camera);
         perception().run(image, base->time_ns, own_map ? add_map(image, tracked) : nullptr,
-                         {hints, elsewhere}, tracked.bodies);
+                         {told.hints, told.elsewhere}, tracked.bodies);
         seen_by = tracked.camera = image.camera;
         if (tracked.bodies.empty()) say_why_absent(tracked);
         in_camera = tracked.bodies;
@@ -84,7 +90,7 @@ struct TrackerObject : ContextChild {
     /// where the last one had it.
     void bring_from_elsewhere(const Camera& camera) {
         const Camera& placed = camera.floor_state < seen_by.floor_state ? seen_by : camera;
-        for (Body& body : elsewhere) body = to_camera(body, placed);
+        for (Body& body : told.elsewhere) body = to_camera(body, placed);
     }
     void say_why_absent(Frame& tracked) {
         static const std::string key = "no_person";
@@ -160,10 +166,14 @@ vfit_track_source check_source(vfit_track_source source, const char* name) {
     return source;
 }
 
+bool is_near(const Vec3& p) {
+    return std::abs(p.x) <= kFarthest_m && std::abs(p.y) <= kFarthest_m && std::abs(p.z) <= kFarthest_m;
+}
+
 WorldPlace place_in(const float* position, const float* rotation, const Axes& axes) {
     check_pointer(position, "position");
     const Vec3 at = axes.point_in({position[0], position[1], position[2]});
-    if (!(std::abs(at.x) <= kFarthest_m && std::abs(at.y) <= kFarthest_m && std::abs(at.z) <= kFarthest_m))
+    if (!is_near(at))
         fail(VFIT_ERROR_ARGUMENT, "position is not finite, or further than ", kFarthest_m, " m away");
     return {at, rotation_in(rotation, axes)};
 }
@@ -269,8 +279,7 @@ vfit_result vfit_tracker_reset(vfit_tracker handle) {
         if (tracker->fits) tracker->fits->reset();
         tracker->active.reset();
         tracker->steady.reset();
-        tracker->hints.clear();
-        tracker->elsewhere.clear();
+        tracker->told_next.clear();
         tracker->seen_by = Camera{};
         return VFIT_OK;
     });
@@ -283,6 +292,9 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         UseFrame frame(frame_handle);
         require_same_context(*tracker, frame);
+        // Whatever comes of this update: the next one is told anew.
+        std::swap(tracker->told, tracker->told_next);
+        tracker->told_next.clear();
         Profile::Scope time(tracker->context->profile, Stage::track);
         Ref<Frame> out = Context::take_frame(*tracker->context->frames);
         // A source that tells its bodies may have nobody in view.
@@ -299,8 +311,6 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         } else {
             tracker->see(frame.ref(), *out);
         }
-        tracker->hints.clear();
-        tracker->elsewhere.clear();
         tracker->choose_active(*out);
         tracked->id = tracker->context->publish(Kind::frame, out);
         return VFIT_OK;
@@ -315,10 +325,11 @@ vfit_result vfit_tracker_hint(vfit_tracker handle, const vfit_joint_hint* items,
         if (count > kMaxBodies * kJointCount)
             fail(VFIT_ERROR_ARGUMENT, "items: ", count, " hints, at most ", kMaxBodies * kJointCount);
         for (uint32_t i = 0; i < count; ++i) check_hint(given[i]);
-        tracker->hints.clear();
+        auto& hints = tracker->told_next.hints;
+        hints.clear();
         for (uint32_t i = 0; i < count; ++i) {
             const vfit_joint_hint h = given[i];
-            tracker->hints.push_back({h.joint, h.x, h.y, h.confidence, h.body_id});
+            hints.push_back({h.joint, h.x, h.y, h.confidence, h.body_id});
         }
         return VFIT_OK;
     });
@@ -333,10 +344,16 @@ vfit_result vfit_tracker_hint_from(vfit_tracker handle, vfit_frame seen, uint32_
         const WorldPlace place = place_in(position, rotation, tracker->context->axes);
         const Body* const body = frame->body(body_id);
         if (!body) fail(VFIT_ERROR_ARGUMENT, "the frame has no body ", body_id);
-        if (tracker->elsewhere.size() == kMaxBodies)
+        auto& elsewhere = tracker->told_next.elsewhere;
+        if (elsewhere.size() == kMaxBodies)
             fail(VFIT_ERROR_CAPACITY, "at most ", kMaxBodies, " people of other cameras");
-        tracker->elsewhere.push_back(*body);
-        for (Joint& joint : tracker->elsewhere.back().joints) joint.position = place.point(joint.position);
+        Body there = *body;
+        for (Joint& joint : there.joints) {
+            joint.position = place.point(joint.position);
+            if (joint.seen() && !is_near(joint.position))
+                fail(VFIT_ERROR_DATA, "body ", body_id, " has a joint further than ", kFarthest_m, " m away");
+        }
+        elsewhere.push_back(there);
         return VFIT_OK;
     });
 }

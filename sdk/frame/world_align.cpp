@@ -14,6 +14,7 @@ constexpr size_t kFewest = 8;
 constexpr float kTogether_m = 0.3f;  // farthest from their mean: less, and noise decides about the direction
 constexpr float kStray_m = 0.1f;     // what is off by more counts ever less (Cauchy)
 constexpr int kRounds = 20;
+constexpr float kFarthest_m = 1000.0f;
 
 /// Of the points, each by its weight.
 Vec3 mean_of(std::span<const Vec3> points, std::span<const float> weights) {
@@ -55,8 +56,9 @@ WorldPlace align_worlds(std::span<const Vec3> here, std::span<const Vec3> there,
         fail(VFIT_ERROR_DATA, here.size(), " points: at least ", kFewest, " are needed");
     for (const std::span<const Vec3> points : {here, there})
         for (const Vec3& p : points)
-            if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
-                fail(VFIT_ERROR_DATA, "a point is not finite");
+            if (!(std::abs(p.x) <= kFarthest_m && std::abs(p.y) <= kFarthest_m &&
+                  std::abs(p.z) <= kFarthest_m))
+                fail(VFIT_ERROR_DATA, "a point is not finite, or further than ", kFarthest_m, " m away");
     require_apart(here), require_apart(there);
     std::vector<float> weights(here.size(), 1.0f);
     WorldPlace place;

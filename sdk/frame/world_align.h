@@ -16,7 +16,7 @@ struct WorldPlace {
 
 /// From points that both saw at the same times; up (Y) is the same in both. Least squares, in which points
 /// that are wrong count ever less. `rms_m`: what is left, of the points as they count. Fails with
-/// VFIT_ERROR_DATA for fewer than 8 points, points that all lie together, or points that are not finite.
+/// VFIT_ERROR_DATA for fewer than 8 points, points that all lie together, and points that are nowhere.
 WorldPlace align_worlds(std::span<const Vec3> here, std::span<const Vec3> there, float& rms_m);
 
 }  // namespace vfit

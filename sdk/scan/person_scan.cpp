@@ -45,14 +45,16 @@ bool arms_out(const Body& body) {
     return true;
 }
 
-/// Of the arm on the camera's side, for a side view: the other one is behind the trunk.
-bool arm_ahead(const Camera& camera, const Body& body) {
+/// Of the arm on the camera's side, for a side view: the other one is behind the trunk. Ahead or behind, as
+/// which of both it is hangs on what is taken for left.
+bool arm_clear_of_side(const Camera& camera, const Body& body) {
     const Vec3 left = body.at(VFIT_JOINT_LEFT_HIP) - body.at(VFIT_JOINT_RIGHT_HIP);
-    const Vec3 ahead = glm::normalize(glm::cross(left, camera.floor_normal));
+    const Vec3 ahead = glm::cross(left, camera.floor_normal);
     const bool left_is_near = left.z < 0.0f;
     const int hand = left_is_near ? VFIT_JOINT_LEFT_HAND : VFIT_JOINT_RIGHT_HAND;
     const int hip = left_is_near ? VFIT_JOINT_LEFT_HIP : VFIT_JOINT_RIGHT_HIP;
-    return !body.has(hand) || glm::dot(ahead, body.at(hand) - body.at(hip)) >= kArmsOut_m;
+    return !body.has(hand) ||
+           std::abs(glm::dot(ahead, body.at(hand) - body.at(hip))) >= kArmsOut_m * glm::length(ahead);
 }
 
 /// A measure that is known to be larger than a bound: the upper part of its normal distribution.
@@ -71,7 +73,10 @@ Measurement above(Measurement m, float bound) {
 }  // namespace
 
 PersonScan::PersonScan(const PersonScanDesc& desc)
-    : desc_(desc), paper_(desc.paper), views_of_camera_(desc.paper.camera_count) {
+    : desc_(desc),
+      paper_(desc.paper),
+      views_of_camera_(desc.paper.camera_count),
+      said_by_camera_(desc.paper.camera_count, VFIT_GUIDANCE_NONE) {
     if (desc.fit_model && desc.measure_model) body_ = std::make_unique<BodyScan>(desc.fit_model);
 }
 
@@ -81,6 +86,7 @@ void PersonScan::reset() {
     side_frames_ = more_side_frames_ = 0;
     ring_.reset();
     std::fill(views_of_camera_.begin(), views_of_camera_.end(), 0u);
+    std::fill(said_by_camera_.begin(), said_by_camera_.end(), VFIT_GUIDANCE_NONE);
     forget(before_turn_), forget(turned_);
     turned_views_ = 0;
     turned_rad_ = 0.0f, turned_ns_ = 0, fast_ = false;
@@ -99,6 +105,7 @@ ScanProgress PersonScan::add(const ScanFrame& frame) {
     const Stopwatch watch;
     progress = paper_.look(frame);
     if (progress.guidance == VFIT_GUIDANCE_NONE) progress.guidance = fit(frame);
+    said_by_camera_[frame.camera] = progress.guidance;
     progress.taken = progress.guidance == VFIT_GUIDANCE_NONE;
     progress.frames_taken = frames_taken();
     progress.compute_ms = watch.ms();
@@ -130,8 +137,15 @@ bool PersonScan::all_cameras_seen() const {
                        [](uint32_t views) { return views >= kViewsOfCamera; });
 }
 
+vfit_guidance PersonScan::wanted_by_others() const {
+    for (size_t k = 0; k < views_of_camera_.size(); ++k)
+        if (views_of_camera_[k] < kViewsOfCamera && said_by_camera_[k] != VFIT_GUIDANCE_NONE)
+            return said_by_camera_[k];
+    return VFIT_GUIDANCE_HOLD_STILL;
+}
+
 vfit_guidance PersonScan::look_around(const ScanFrame& frame) {
-    if (views_of_camera_[frame.camera] >= kViewsOfCamera) return VFIT_GUIDANCE_HOLD_STILL;  // for the others
+    if (views_of_camera_[frame.camera] >= kViewsOfCamera) return wanted_by_others();
     // From the side the trunk hides a hand: where it is taken to be says nothing.
     const bool side = view_of(frame.image.camera, *frame.body) == ViewKind::kSide;
     if (!side && !arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
@@ -146,16 +160,17 @@ vfit_guidance PersonScan::look_around(const ScanFrame& frame) {
 
 vfit_guidance PersonScan::fit(const ScanFrame& frame) {
     const bool side_done = side_frames_ >= side_frames_wanted();
-    if (desc_.turn && paper_.complete() && side_done) return turn(frame);
+    if (paper_.complete() && side_done) {
+        if (desc_.turn) return turn(frame);
+        if (several_cameras()) return look_around(frame);
+    }
     const ViewKind seen = view_of(frame.image.camera, *frame.body);
     const bool front = seen == ViewKind::kFront, side = seen == ViewKind::kSide;
-    // Where no camera sees the side, none is waited for.
-    if (several_cameras() && paper_.complete() && (side_done || !side)) return look_around(frame);
     if (paper_.complete() ? !side : !front && !side)
         return paper_.complete() ? VFIT_GUIDANCE_TURN_SIDEWAYS : VFIT_GUIDANCE_FACE_CAMERA;
     if (side && side_done) return VFIT_GUIDANCE_FACE_CAMERA;
     if (front && !arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
-    if (side && !arm_ahead(frame.image.camera, *frame.body)) return VFIT_GUIDANCE_ARMS_FORWARD;
+    if (side && !arm_clear_of_side(frame.image.camera, *frame.body)) return VFIT_GUIDANCE_ARMS_FORWARD;
     if (body_->add(frame.image, *frame.body) != seen) return VFIT_GUIDANCE_HOLD_STILL;
     forget(before_turn_);  // extend() asked for more after a turn
     if (front)

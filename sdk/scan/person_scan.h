@@ -78,6 +78,8 @@ private:
     vfit_guidance look_around(const ScanFrame& frame);
     bool several_cameras() const { return views_of_camera_.size() > 1; }
     bool all_cameras_seen() const;
+    /// What keeps a camera that has not shown enough from it.
+    vfit_guidance wanted_by_others() const;
     /// Null where they do not close.
     const SeenOfTurn* seen_of_turn() const;
 
@@ -87,6 +89,7 @@ private:
     uint32_t side_frames_ = 0, more_side_frames_ = 0;
     TurnRing ring_;
     std::vector<uint32_t> views_of_camera_;
+    std::vector<vfit_guidance> said_by_camera_;  // to its last frame
     // Of the views before the turn: the body goes on being fitted to all of it, and measures have not learnt
     // what that does to its shape.
     std::optional<ScanFeatures> before_turn_;

@@ -251,6 +251,34 @@ TEST_F(OtherCameraTest, BadPlacesAndPeopleAreRefused) {
     EXPECT_EQ(vfit_tracker_hint_from(own, frame, 1, here, kUnit), VFIT_ERROR_CAPACITY);
     EXPECT_EQ(vfit_tracker_reset(own), VFIT_OK);
     EXPECT_EQ(vfit_tracker_hint_from(own, frame, 1, here, kUnit), VFIT_OK);
+    // An update takes what it was told, whatever comes of it.
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    desc.joints = VFIT_TRACK_GIVEN;
+    vfit_tracker given{};
+    ASSERT_EQ(vfit_tracker_create(context, &desc, &given), VFIT_OK);
+    for (int i = 0; i < 8; ++i)
+        EXPECT_EQ(vfit_tracker_hint_from(given, frame, 1, here, kUnit), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_tracker_hint_from(given, frame, 1, here, kUnit), VFIT_ERROR_CAPACITY);
+    const contract::HostImage image;
+    const vfit_frame_desc bare = image.desc();
+    vfit_frame without_joints{}, tracked{};
+    ASSERT_EQ(vfit_frame_create(context, &bare, &without_joints), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_tracker_update(given, without_joints, &tracked), VFIT_ERROR_UNSUPPORTED);
+    EXPECT_EQ(vfit_tracker_hint_from(given, frame, 1, here, kUnit), VFIT_OK);
+    // Joints that are nowhere say nothing.
+    auto joints = contract::joints_of(frame, 1);
+    joints[VFIT_JOINT_LEFT_HIP].position[0] = 2e38f;
+    joints[VFIT_JOINT_RIGHT_HIP].position[0] = -2e38f;
+    vfit_body body = vfit_body_init();
+    body.body_id = 2;
+    ASSERT_EQ(vfit_tracker_submit(given, frame, &body, joints.data(), sizeof joints[0],
+                                  uint32_t(joints.size()), &tracked),
+              VFIT_OK)
+        << contract::last_error();
+    EXPECT_EQ(vfit_tracker_hint_from(own, tracked, 2, here, kUnit), VFIT_ERROR_DATA);
+    EXPECT_EQ(vfit_frame_release(tracked), VFIT_OK);
+    EXPECT_EQ(vfit_frame_release(without_joints), VFIT_OK);
+    EXPECT_EQ(vfit_tracker_destroy(given), VFIT_OK);
     float position[3], rotation[4];
     EXPECT_EQ(vfit_world_align(context, here, here, 1, position, rotation, nullptr), VFIT_ERROR_DATA);
     EXPECT_EQ(vfit_world_align(context, nullptr, here, 1, position, rotation, nullptr), VFIT_ERROR_ARGUMENT);

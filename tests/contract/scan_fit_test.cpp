@@ -255,6 +255,10 @@ TEST_F(ScanFitTest, SeveralCamerasAreNumbered) {
     desc.camera_count = 2, desc.flags |= VFIT_SCAN_TURN;
     EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_ERROR_ARGUMENT);
     EXPECT_NE(contract::last_error().find("turn"), std::string::npos);
+    desc.flags &= ~uint32_t(VFIT_SCAN_TURN), desc.method = VFIT_SCAN_PROPORTIONS;
+    EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(contract::last_error().find("paper"), std::string::npos);
+    desc.method = VFIT_SCAN_FIT;
     desc.camera_count = 4, desc.flags &= ~uint32_t(VFIT_SCAN_TURN);
     ASSERT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_OK);
     vfit_sensor sensors[4]{};

@@ -22,8 +22,8 @@ std::array<float, 3> turned(const std::array<float, 3>& p, float by_rad) {
 /// Each is played from its first frame on, whenever it is opened; a camera's frames are of now.
 bool is_recorded(const std::string& uri) {
     std::error_code error;
-    return uri.starts_with("virtual:") || uri.starts_with("recording:") ||
-           std::filesystem::is_directory(uri, error);
+    return uri.starts_with("virtual:") || uri.starts_with("recording:") || uri.starts_with("oni:") ||
+           uri.ends_with(".oni") || std::filesystem::is_directory(uri, error);
 }
 
 }  // namespace
@@ -54,13 +54,20 @@ std::vector<CameraPlace> read_places(const std::string& path, size_t cameras) {
         const Json file = Json::parse(text);
         if (file.value("format", "") != "vfit-cameras") throw Failure(path + ": is not of vfit cameras");
         if (file.value("version", 0) != 1) throw Failure(path + ": is of another version than 1");
+        if (!file.at("cameras").is_array()) throw Failure(path + ": \"cameras\" is no list");
         for (const Json& camera : file.at("cameras")) {
             CameraPlace place;
-            place.turned_rad = kDegree * camera.at("turned_deg").get<float>();
-            place.position = camera.at("position").get<std::array<float, 3>>();
-            const auto& p = place.position;
-            if (!std::isfinite(place.turned_rad + p[0] + p[1] + p[2]))
-                throw Failure(path + ": camera " + std::to_string(out.size()) + " is nowhere");
+            const auto number = [&](const Json& value, float most) {
+                const float v = value.is_number() ? value.get<float>() : NAN;
+                if (!(std::abs(v) <= most))
+                    throw Failure(path + ": camera " + std::to_string(out.size()) + ": " + value.dump() +
+                                  " is not a number within " + std::to_string(int(most)));
+                return v;
+            };
+            place.turned_rad = kDegree * number(camera.at("turned_deg"), 360.0f);
+            const Json& position = camera.at("position");
+            if (position.size() != 3) throw Failure(path + ": a position is not three numbers");
+            for (size_t k = 0; k < 3; ++k) place.position[k] = number(position.at(k), 100.0f);
             out.push_back(place);
         }
     } catch (const Json::exception& error) {

@@ -33,7 +33,8 @@ public:
     /// another.
     Cameras(vfit_context context, const std::vector<std::string>& uris, const TrackOptions& options,
             std::vector<CameraPlace> places = {});
-    /// Tracks a frame of each, all of about one moment. False where a source has ended.
+    /// Tracks a frame of each, all of about one moment as far as their rates allow. False where a source has
+    /// ended.
     bool next();
     size_t count() const { return cameras_.size(); }
     vfit_frame tracked(size_t camera) const { return cameras_[camera].tracked.get(); }

@@ -156,6 +156,7 @@ ScanRun scan_source(vfit_context context, const std::string& uri, const ScanOpti
     }
     ScanOptions paper = options;
     paper.method = VFIT_SCAN_PROPORTIONS;
+    paper.other_cameras.clear(), paper.places.clear();
     try {
         ScanRun run = scan(paper);
         run.note = "measured by the paper's method, without girths: for the fitted body, " + reason;

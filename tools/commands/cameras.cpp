@@ -17,6 +17,9 @@ namespace {
 // Which side is left may be unknown: these joints have none.
 constexpr vfit_joint_id kMiddle[] = {VFIT_JOINT_PELVIS, VFIT_JOINT_CHEST, VFIT_JOINT_NECK, VFIT_JOINT_HEAD};
 
+// Between places of a joint by two cameras that see the same person: 0.01 to 0.03 m in practice.
+constexpr float kFarthestApart_m = 0.08f;
+
 struct Options {
     std::vector<std::string> sources;
     std::string out;
@@ -73,6 +76,10 @@ Found find_places(const Options& o) {
         } catch (const Failure& failure) {
             throw Failure(o.sources[i] + ": beside " + o.sources[0] + ": " + failure.what());
         }
+        if (rms > kFarthestApart_m)
+            throw Failure(o.sources[i] + ": beside " + o.sources[0] + ": what both saw lies " +
+                          std::to_string(rms).substr(0, 4) +
+                          " m apart: not the same person at the same moments");
         place.turned_rad = 2.0f * std::atan2(rotation[1], rotation[3]);
         out.places.push_back(place);
         out.report.push_back({{"source", o.sources[i]}, {"points", count}, {"rms_m", rms}});

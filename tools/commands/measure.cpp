@@ -48,6 +48,8 @@ Json measure(const Options& options) {
     if (!run.note.empty()) out["note"] = run.note;
     if (options.turn && run.method == VFIT_SCAN_FIT && !run.complete)
         out["note"] = "no whole turn was seen: half of one counts, less than that does not";
+    if (!options.cameras.empty() && run.method == VFIT_SCAN_FIT && !run.complete)
+        out["note"] = "not every camera has shown what was wanted of it: measures are by those that have";
     out["frames"] = run.frames_taken;
     if (run.method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
     if (options.turn || !options.cameras.empty())

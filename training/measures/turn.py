@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Learns what girths read off a closed surface are off by, of a turn and of several cameras, from scans of
-generated people (vfit-bench scan-features --turn, --cameras), and writes it into the measure model: by clothes
-and sex a median, and a deviation of which 1.645 hold 90 % of errors. Needs numpy alone.
+generated people (vfit-bench scan-features --turn, --cameras), and writes it into the measure model: by
+clothes and sex a median, and a deviation of which 1.645 hold 90 % of errors. Needs numpy alone.
 """
 
 import argparse

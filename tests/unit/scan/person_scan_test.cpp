@@ -97,6 +97,7 @@ TEST_F(PersonScanTest, TwoCamerasSeeFrontAndSideWithoutATurn) {
     PersonScan scan(two);
     for (int i = 0; i < 6; ++i) add(scan, front_, 0), add(scan, seen_from(6), 1);
     EXPECT_EQ(scan.frames_taken(), 4u);
+    EXPECT_EQ(add(scan, front_, 0).guidance, VFIT_GUIDANCE_TURN_SIDEWAYS);
     EXPECT_EQ(add(scan, seen_from(6), 1).guidance, VFIT_GUIDANCE_ARMS_FORWARD);
     EXPECT_EQ(scan.side_frames_taken(), 0u);
     for (int i = 0; i < 10; ++i) add(scan, side_, 1);
@@ -253,6 +254,8 @@ TEST_F(PersonScanTest, ACameraThatHasShownEnoughWaitsForTheOthers) {
     EXPECT_EQ(taken, 3);
     EXPECT_EQ(add(scan, front_, 0).guidance, VFIT_GUIDANCE_HOLD_STILL);
     EXPECT_EQ(add(scan, standing_person(avatar_, {kPi, 0.05f}), 1).guidance, VFIT_GUIDANCE_ARMS_OUT);
+    EXPECT_EQ(add(scan, front_, 0).guidance, VFIT_GUIDANCE_ARMS_OUT)
+        << "which the person may hear from there";
     EXPECT_FALSE(scan.complete());
 }
 

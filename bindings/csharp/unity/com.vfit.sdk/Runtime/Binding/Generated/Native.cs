@@ -284,8 +284,8 @@ namespace Vfit
         /// which says whether they face this one: front and back look alike in depth. What single frames of
         /// all cameras say is weighed, a body of a source or the host being sure. position and rotation (x,
         /// y, z, w): the other camera's world space in this one's (vfit_world_align); within 0.3 m at the
-        /// person and 20 degrees is good enough. A second call adds another person or camera. Does nothing
-        /// where the joints are the source's. [excl]</summary>
+        /// person and 20 degrees is good enough. A second call adds another person or camera, up to 8:
+        /// VFIT_ERROR_CAPACITY. Does nothing where the joints are the source's. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_tracker_hint_from(TrackerId tracker, FrameId seen, uint bodyId,
             float* position, float* rotation);
@@ -339,9 +339,10 @@ namespace Vfit
             ScanState* state);
 
         /// <summary>The same of several cameras, each with a tracker of its own: camera, from 0 on, says
-        /// which one saw the frame. First come the frames from the front and the side, from whichever cameras
-        /// see the person so, then a few of each camera; turn_seen has the ways that all see. guidance is of
-        /// this camera: tell the person what the one says that they are to face. [excl]</summary>
+        /// which one saw the frame. First come the frames from the front, then those from the side, from
+        /// whichever cameras see the person so, then a few of each camera; turn_seen has the ways that all
+        /// see. guidance is of this camera; of one that has shown enough it is what another one still wants.
+        /// [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_scan_add_from(ScanId scan, uint camera, FrameId tracked,
             uint bodyId, ScanState* state);

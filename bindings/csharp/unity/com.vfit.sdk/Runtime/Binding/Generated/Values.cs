@@ -888,11 +888,12 @@ namespace Vfit
         public Sex Sex;
         /// <summary>of FIT: frames from the side, 15 are enough; 0: none are waited for</summary>
         public uint SideFrameCount;
-        /// <summary>VFIT_SCAN_* Of FIT: cameras that see the person at once (vfit_scan_add_from), at most 8;
-        /// 0: one. Where three or more show the person all around, or from before, behind and one side,
-        /// girths of the trunk from the surface that they see together are combined with those of the other
-        /// views. Not with VFIT_SCAN_TURN.</summary>
+        /// <summary>VFIT_SCAN_*</summary>
         public ScanFlags Flags;
+        /// <summary>of FIT alone: cameras that see the person at once (vfit_scan_add_from), at most 8; 0:
+        /// one. Where three or more show the person all around, or from before, behind and one side, girths
+        /// of the trunk from the surface that they see together are combined with those of the other views.
+        /// Not with VFIT_SCAN_TURN</summary>
         public uint CameraCount;
     }
 
