@@ -18,7 +18,7 @@ namespace {
 constexpr vfit_joint_id kMiddle[] = {VFIT_JOINT_PELVIS, VFIT_JOINT_CHEST, VFIT_JOINT_NECK, VFIT_JOINT_HEAD};
 
 // Between places of a joint by two cameras that see the same person: 0.01 to 0.03 m in practice.
-constexpr float kFarthestApart_m = 0.08f;
+constexpr float kMaxApart_m = 0.08f;
 
 struct Options {
     std::vector<std::string> sources;
@@ -76,7 +76,7 @@ Found find_places(const Options& o) {
         } catch (const Failure& failure) {
             throw Failure(o.sources[i] + ": beside " + o.sources[0] + ": " + failure.what());
         }
-        if (rms > kFarthestApart_m)
+        if (rms > kMaxApart_m)
             throw Failure(o.sources[i] + ": beside " + o.sources[0] + ": what both saw lies " +
                           std::to_string(rms).substr(0, 4) +
                           " m apart: not the same person at the same moments");
