@@ -26,8 +26,10 @@ py::object add(const Scan& scan, const Frame& frame, const std::optional<uint32_
                uint32_t camera) {
     vfit_scan_state state = vfit_scan_state_init();
     const uint32_t body = body_or_active(frame, body_id);
-    const vfit_result result =
-        run([&, s = scan.get(), f = frame.get()] { return vfit_scan_add_from(s, camera, f, body, &state); });
+    const vfit_result result = run([&, s = scan.get(), f = frame.get()] {
+        return camera == 0 ? vfit_scan_add(s, f, body, &state)
+                           : vfit_scan_add_from(s, camera, f, body, &state);
+    });
     return value("ScanState", result != VFIT_INCOMPLETE, result == VFIT_OK, state.frames_taken,
                  state.frames_wanted, value("Guidance", state.guidance), state.correction_m, state.compute_ms,
                  state.side_frames_taken, state.side_frames_wanted, state.turn_seen, state.turn_wanted);
