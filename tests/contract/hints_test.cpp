@@ -211,8 +211,9 @@ TEST_F(OtherCameraTest, IsFoundByPeopleWhoWalkAbout) {
     while (vfit_sensor_acquire(sensors[0], -1, &frames[0]) == VFIT_OK &&
            vfit_sensor_acquire(sensors[1], -1, &frames[1]) == VFIT_OK)
         for (int k = 0; k < 2; ++k) {
-            const float* const p = contract::joints_of(frames[k], 1)[VFIT_JOINT_PELVIS].position;
-            points[k].insert(points[k].end(), p, p + 3);
+            const auto joints = contract::joints_of(frames[k], 1);
+            const auto& p = joints[VFIT_JOINT_PELVIS].position;
+            points[k].insert(points[k].end(), std::begin(p), std::end(p));
             vfit_frame_release(frames[k]);
         }
     float position[3], rotation[4], rms = 1.0f;
