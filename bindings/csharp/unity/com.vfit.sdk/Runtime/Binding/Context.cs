@@ -124,9 +124,9 @@ namespace Vfit
         {
             Arrays.Check(here, here == null ? 0 : here.Length, "here");
             Arrays.Check(there, here.Length, "there");
-            Float3 at;
-            Float4 turn;
-            float rms;
+            var at = new Float3();
+            var turn = new Float4();
+            float rms = 0;
             fixed (Float3* a = here, b = there)
                 Calls.WorldAlign(Handle, (float*)a, (float*)b, (uint)here.Length, &at.X, &turn.X, &rms);
             position = at;
