@@ -560,18 +560,19 @@ VFIT_API vfit_result vfit_tracker_submit(vfit_tracker tracker, vfit_frame frame,
  * VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of them is taken. [excl] */
 VFIT_API vfit_result vfit_tracker_hint(vfit_tracker tracker, const vfit_joint_hint* items, uint32_t stride,
                                        uint32_t count);
-/* For the next update alone: a person as another camera saw them at most about 50 ms ago, which says whether
- * they face this one: front and back look alike in depth. What single frames of all cameras say is weighed, a
- * body of a source or the host being sure. position and rotation (x, y, z, w): the other camera's world space
- * in this one's (vfit_world_align); within 0.3 m at the person and 20 degrees is good enough. A second call
- * adds another person or camera, up to 8: VFIT_ERROR_CAPACITY. Does nothing where the joints are the
- * source's. [excl] */
+/* A person of another camera's tracked frame, at most about 50 ms old, for the next update alone. It helps to
+ * decide which way the person faces: front and back look alike in depth. The evidence of single frames is
+ * added up over the cameras; a body of a source or of the host counts as certain. position and rotation
+ * (x, y, z, w): the pose of the other camera's world space in this one's (vfit_world_align), to 0.3 m at the
+ * person and 20 degrees. VFIT_INCOMPLETE: seen has no such body, as while the active person is lost. Further
+ * calls add people or cameras, up to 8: VFIT_ERROR_CAPACITY. No effect where the source supplies the joints.
+ * [excl] */
 VFIT_API vfit_result vfit_tracker_hint_from(vfit_tracker tracker, vfit_frame seen, uint32_t body_id,
                                             const float position[3], const float rotation[4]);
-/* Where another camera's world space lies in this one's, from count points (3 floats each) that both saw at
- * the same times, as joints of a person who walks about: MIDDLE joints, so that nothing hangs on left and
- * right. Both worlds have the same up. Single points that are wrong hardly count. rms (may be null) is what
- * is left between them. Fewer than 8 points, or all within 0.3 m: VFIT_ERROR_DATA. [any] */
+/* The pose of another camera's world space in this one's, from count points (3 floats each) that both cameras
+ * saw at the same times: joints of a person who walks about, MIDDLE joints, as left and right may be exchanged.
+ * Up is the same in both. Outliers get little weight. rms (may be null) is the weighted residual. Fewer than 8
+ * points, points within 0.3 m of their mean, or not within 1 km: VFIT_ERROR_DATA. [any] */
 VFIT_API vfit_result vfit_world_align(vfit_context context, const float* here, const float* there,
                                       uint32_t count, float position[3], float rotation[4], float* rms);
 /* Forgets people, room and choice. [excl] */
@@ -628,11 +629,10 @@ typedef struct vfit_scan_desc {
     uint32_t side_frame_count; /* of FIT: frames from the side, 15 are enough; 0: none
                                 * are waited for */
     uint32_t flags;            /* VFIT_SCAN_* */
-    uint32_t camera_count;     /* of FIT alone: cameras that see the person at once (vfit_scan_add_from), at
-                                * most 8; 0: one. Where three or more show the person all around, or from
-                                * before, behind and one side, girths of the trunk from the surface that they
-                                * see together are combined with those of the other views. Not with
-                                * VFIT_SCAN_TURN */
+    uint32_t camera_count;     /* of FIT: cameras that see the person at the same time (vfit_scan_add_from),
+                                * at most 8; 0: one. Where they show front, back and a side, girths of the
+                                * trunk are measured on the closed surface and combined with the others. Not
+                                * with VFIT_SCAN_TURN */
 } vfit_scan_desc;
 typedef struct vfit_scan_state {
     uint32_t struct_size, frames_taken, frames_wanted;
@@ -738,10 +738,9 @@ VFIT_API vfit_result vfit_scan_extend(vfit_scan scan, uint32_t frames, uint32_t 
  * wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null. [excl] */
 VFIT_API vfit_result vfit_scan_add(vfit_scan scan, vfit_frame tracked, uint32_t body_id,
                                    vfit_scan_state* state);
-/* The same of several cameras, each with a tracker of its own: camera, from 0 on, says which one saw the
- * frame. First come the frames from the front, then those from the side, from whichever cameras see the
- * person so, then a few of each camera; turn_seen has the ways that all see. guidance is of this camera; of
- * one that has shown enough it is what another one still wants. [excl] */
+/* A frame of one of several cameras, each with its own tracker; camera counts from 0. The scan takes front
+ * views first, then side views, from any camera, then three frames of each camera; turn_seen holds the ways of
+ * these. guidance concerns this camera; once it has shown enough, the first camera that lacks frames. [excl] */
 VFIT_API vfit_result vfit_scan_add_from(vfit_scan scan, uint32_t camera, vfit_frame tracked, uint32_t body_id,
                                         vfit_scan_state* state);
 /* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE. [read] */

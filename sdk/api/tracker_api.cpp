@@ -21,7 +21,7 @@ using namespace vfit::api;
 namespace {
 
 constexpr size_t kMaxBodies = Perception::kMaxBodies;  // of one frame
-constexpr float kFarthest_m = 100.0f;                  // another camera
+constexpr float kFarthest_m = 100.0f;                  // of another camera, and of people that it sees
 
 struct TrackerObject : ContextChild {
     static constexpr Kind kKind = Kind::tracker;
@@ -35,7 +35,7 @@ struct TrackerObject : ContextChild {
     ActivePerson active;
     vfit_joint_filter filter = VFIT_FILTER_AUTO;
     SteadyBodies steady;  // joints that are not the tracker's own
-    /// Of what others see.
+    /// What the host says of the people of a frame.
     struct Told {
         std::vector<JointHint> hints;
         std::vector<Body> elsewhere;  // by other cameras, in this one's world space
@@ -292,7 +292,7 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         UseFrame frame(frame_handle);
         require_same_context(*tracker, frame);
-        // Whatever comes of this update: the next one is told anew.
+        // What was told is for this update alone, even where it fails.
         std::swap(tracker->told, tracker->told_next);
         tracker->told_next.clear();
         Profile::Scope time(tracker->context->profile, Stage::track);
@@ -337,13 +337,13 @@ vfit_result vfit_tracker_hint(vfit_tracker handle, const vfit_joint_hint* items,
 
 vfit_result vfit_tracker_hint_from(vfit_tracker handle, vfit_frame seen, uint32_t body_id,
                                    const float position[3], const float rotation[4]) {
-    return guard([&] {
+    return guard([&]() -> vfit_result {
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         UseFrame frame(seen);
         require_same_context(*tracker, frame);
         const WorldPlace place = place_in(position, rotation, tracker->context->axes);
         const Body* const body = frame->body(body_id);
-        if (!body) fail(VFIT_ERROR_ARGUMENT, "the frame has no body ", body_id);
+        if (!body) return VFIT_INCOMPLETE;
         auto& elsewhere = tracker->told_next.elsewhere;
         if (elsewhere.size() == kMaxBodies)
             fail(VFIT_ERROR_CAPACITY, "at most ", kMaxBodies, " people of other cameras");

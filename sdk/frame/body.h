@@ -29,8 +29,8 @@ struct Body {
     uint32_t id = 0;
     int64_t time_ns = 0;
     uint32_t flags = 0;  // VFIT_BODY_*
-    // What its frame alone says for the way that the person faces here against the opposite one; logit. Who
-    // sees no heat maps is taken at their word.
+    // Logit that the person faces this way and not the opposite one, by this frame alone. A body of a source or
+    // of the host is taken as certain.
     float facing_logit = kSureFacing;
     std::array<Joint, kJointCount> joints{};  // by id
 

@@ -11,8 +11,8 @@ namespace vfit {
 namespace {
 
 constexpr size_t kFewest = 8;
-constexpr float kTogether_m = 0.3f;  // farthest from their mean: less, and noise decides about the direction
-constexpr float kStray_m = 0.1f;     // what is off by more counts ever less (Cauchy)
+constexpr float kTogether_m = 0.3f;  // distance of the farthest point from the mean; below, noise sets the yaw
+constexpr float kStray_m = 0.1f;     // residual at which the weight has halved (Cauchy)
 constexpr int kRounds = 20;
 constexpr float kFarthest_m = 1000.0f;
 

@@ -45,8 +45,8 @@ bool arms_out(const Body& body) {
     return true;
 }
 
-/// Of the arm on the camera's side, for a side view: the other one is behind the trunk. Ahead or behind, as
-/// which of both it is hangs on what is taken for left.
+/// Whether the arm on the camera's side leaves the outline of a side view free; the other arm is behind the
+/// trunk. Left and right may be exchanged, so an arm behind the trunk counts as one ahead of it.
 bool arm_clear_of_side(const Camera& camera, const Body& body) {
     const Vec3 left = body.at(VFIT_JOINT_LEFT_HIP) - body.at(VFIT_JOINT_RIGHT_HIP);
     const Vec3 ahead = glm::cross(left, camera.floor_normal);
@@ -146,7 +146,7 @@ vfit_guidance PersonScan::wanted_by_others() const {
 
 vfit_guidance PersonScan::look_around(const ScanFrame& frame) {
     if (views_of_camera_[frame.camera] >= kViewsOfCamera) return wanted_by_others();
-    // From the side the trunk hides a hand: where it is taken to be says nothing.
+    // From the side the trunk hides a hand, and its estimated position is of no use.
     const bool side = view_of(frame.image.camera, *frame.body) == ViewKind::kSide;
     if (!side && !arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
     if (!before_turn_) before_turn_ = body_->features(with_side());

@@ -20,7 +20,7 @@ struct PersonScanDesc {
     bool bare = false;   // no shoes and no hair: stature needs no allowance
     bool tight = false;  // clothes lie on the skin
     bool turn = false;   // of the fitted body, after the other frames: once round on the spot
-    // paper.camera_count above 1: of the fitted body, after the other frames a few of each camera.
+    // With paper.camera_count above 1 the fitted body also takes a few frames of each camera, last.
 };
 
 struct InferredSex {
@@ -78,7 +78,7 @@ private:
     vfit_guidance look_around(const ScanFrame& frame);
     bool several_cameras() const { return views_of_camera_.size() > 1; }
     bool all_cameras_seen() const;
-    /// What keeps a camera that has not shown enough from it.
+    /// Guidance of the first camera that lacks views; HOLD_STILL where none of those has given any.
     vfit_guidance wanted_by_others() const;
     /// Null where they do not close.
     const SeenOfTurn* seen_of_turn() const;
@@ -89,7 +89,7 @@ private:
     uint32_t side_frames_ = 0, more_side_frames_ = 0;
     TurnRing ring_;
     std::vector<uint32_t> views_of_camera_;
-    std::vector<vfit_guidance> said_by_camera_;  // to its last frame
+    std::vector<vfit_guidance> said_by_camera_;  // guidance of its last frame
     // Of the views before the turn: the body goes on being fitted to all of it, and measures have not learnt
     // what that does to its shape.
     std::optional<ScanFeatures> before_turn_;

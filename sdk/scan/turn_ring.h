@@ -60,7 +60,7 @@ public:
             front_and_back |= uint32_t{1} << (kWays + off) % kWays | uint32_t{1} << (kWays / 2 + off);
         return std::popcount(faced) >= kEnough && (faced & front_and_back) == front_and_back;
     }
-    /// The same than of four cameras, a quarter apart; by generated people.
+    /// How many times wider the errors are than those by four cameras, a quarter apart; by generated people.
     float doubt_between_cameras() const {
         constexpr float kUnseenSide = 1.5f, kThree = 1.2f;
         constexpr int kQuarter = kWays / 4 + 1, kThird = kWays / 3 + 1;

@@ -18,7 +18,7 @@ constexpr float kWeight = 0.35f;      // of the network's answer: those of frame
 constexpr float kAnswerLimit = 3.0f;  // one frame's logit counts no more
 constexpr float kLegs = 3.0f;         // logit of toes that point straight behind
 constexpr float kSeenFoot = 0.15f;    // confidence
-// Between a person's places by two cameras: people who touch stand farther apart.
+// Largest distance between the positions of one person by two cameras; people who touch stand farther apart.
 constexpr float kSamePlace_m = 0.4f;
 
 /// The first cell whose middle may lie within `reach` of `place`, and the one after the last.
@@ -91,8 +91,8 @@ float legs_agree(const SeenJoints& joints, const Vec3& up) {
     return most > 1e-6f ? std::clamp(said / most, -1.0f, 1.0f) : 0.0f;
 }
 
-/// What frames of other cameras say for that the person faces away; logit. Evidence goes from camera to
-/// camera, not decisions: these would come back as their own echo.
+/// Logit that the person faces away, by the frames of other cameras. Cameras exchange the evidence of single
+/// frames and no decisions: a decision that came back would confirm itself.
 float away_by_others(std::span<const Body> elsewhere, const SeenJoints& joints) {
     const auto seen = [&](int joint) { return joints[size_t(joint)].position; };
     const Vec3 left = left_of(seen), middle = middle_of(seen);

@@ -31,10 +31,10 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
 class Facing {
 public:
     /// Exchanges left and right in `joints` where the person faces away. up: in the joints' space.
-    /// `elsewhere`: people as other cameras see them, in that space too; of them the person is who stands at
-    /// the place.
+    /// `elsewhere`: people as other cameras see them, in the same space; the one at this person's position
+    /// counts.
     void apply(float away_logit, const Vec3& up, SeenJoints& joints, std::span<const Body> elsewhere = {});
-    /// What the last frame alone says for the decision as it stands; logit.
+    /// Logit of the present decision by the last frame alone.
     float agreement() const { return away() ? said_ : -said_; }
     bool away() const { return log_odds_ > 0.0f; }
     /// The decision as it stands; of somebody new what the network says.
@@ -43,7 +43,7 @@ public:
 private:
     bool known_ = false;
     float log_odds_ = 0.0f;  // that the person faces away
-    float said_ = 0.0f;      // the same by the last frame of this camera alone
+    float said_ = 0.0f;      // the same, by the last frame of this camera alone
     SeenJoints last_{};      // as if they faced the sensor
 };
 

@@ -226,6 +226,12 @@ class Contract(unittest.TestCase):
             sigma = [run["measurements"]["hip_girth_m"]["sigma"] for run in (around, alone)]
             self.assertLess(sigma[0], sigma[1])
             self.check_failure(run("measure", views[0], "--camera", views[1], *given), "4 cameras, not 2")
+            # The person comes in, and leaves again while they are still the active one.
+            visit = VIRTUAL.replace("demo", "visit").replace("frames=60", "rate=10&frames=210")
+            met = document(self, "cameras", visit, visit, "--out", places, "--json")
+            self.assertLess(met["of"][0]["rms_m"], 0.001)
+            given_visit = ["--camera", visit, "--places", places, "--frames", "5", "--json"]
+            self.assertEqual(run("measure", visit, *given_visit).returncode, 0)
             standing = run("cameras", *views[:2], "--frames", "20")
             self.check_failure(standing, "walk about", "facing=90")
             with open(places, "w") as file:

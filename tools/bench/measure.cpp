@@ -150,13 +150,13 @@ public:
 private:
     static constexpr uint32_t kCameras = 4;
 
-    /// By all cameras at once, which know how they stand to each other.
+    /// By all cameras at once, with their true places.
     void look_around(const PersonOfPopulation& person) {
         std::vector<std::string> uris;
         std::vector<CameraPlace> places;
         const float far_m = scene_.distance_to(person);
         for (const SceneCamera& camera : scene_.around(person)) {
-            const float turned_rad = camera.turned_deg * 0.017453292f;
+            const float turned_rad = camera.turned_deg * kRadPerDegree;
             uris.push_back(camera.uri);
             places.push_back(
                 {turned_rad, {far_m * std::sin(turned_rad), 0.0f, far_m * (std::cos(turned_rad) - 1.0f)}});

@@ -11,7 +11,6 @@ namespace vfit::tools {
 namespace {
 
 constexpr int64_t kTogether_ns = 20'000'000;  // frames of one moment: half a frame at 30 Hz, and a little
-constexpr float kDegree = 0.017453292f;
 
 /// Turned about up, to the left.
 std::array<float, 3> turned(const std::array<float, 3>& p, float by_rad) {
@@ -19,7 +18,7 @@ std::array<float, 3> turned(const std::array<float, 3>& p, float by_rad) {
     return {c * p[0] + s * p[2], p[1], c * p[2] - s * p[0]};
 }
 
-/// Each is played from its first frame on, whenever it is opened; a camera's frames are of now.
+/// A recording is played from its first frame on, whenever it is opened.
 bool is_recorded(const std::string& uri) {
     std::error_code error;
     return uri.starts_with("virtual:") || uri.starts_with("recording:") || uri.starts_with("oni:") ||
@@ -43,7 +42,7 @@ std::array<float, 4> CameraPlace::rotation() const {
 std::string places_text(const std::vector<CameraPlace>& places) {
     Json out = {{"format", "vfit-cameras"}, {"version", 1}, {"cameras", Json::array()}};
     for (const CameraPlace& place : places)
-        out["cameras"].push_back({{"position", place.position}, {"turned_deg", place.turned_rad / kDegree}});
+        out["cameras"].push_back({{"position", place.position}, {"turned_deg", place.turned_rad / kRadPerDegree}});
     return out.dump(2) + "\n";
 }
 
@@ -64,7 +63,7 @@ std::vector<CameraPlace> read_places(const std::string& path, size_t cameras) {
                                   " is not a number within " + std::to_string(int(most)));
                 return v;
             };
-            place.turned_rad = kDegree * number(camera.at("turned_deg"), 360.0f);
+            place.turned_rad = kRadPerDegree * number(camera.at("turned_deg"), 360.0f);
             const Json& position = camera.at("position");
             if (position.size() != 3) throw Failure(path + ": a position is not three numbers");
             for (size_t k = 0; k < 3; ++k) place.position[k] = number(position.at(k), 100.0f);

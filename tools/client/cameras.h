@@ -9,6 +9,8 @@
 
 namespace vfit::tools {
 
+inline constexpr float kRadPerDegree = 0.017453292f;
+
 /// Where a camera's world space lies in the first camera's: turned about up (to the left, as seen from
 /// above), then moved. Metres.
 struct CameraPlace {

@@ -77,6 +77,13 @@ uint32_t active_body(vfit_frame frame) {
     return id;
 }
 
+uint32_t active_body_in_view(vfit_frame frame) {
+    uint32_t id = 0;
+    vfit_active_state state = VFIT_ACTIVE_NOBODY;
+    check(vfit_frame_active_body(frame, &id, &state));
+    return state == VFIT_ACTIVE_LOST ? 0 : id;
+}
+
 std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body_id) {
     return list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* n) {
         return vfit_frame_joints(frame, body_id, items, stride, n);

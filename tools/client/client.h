@@ -109,6 +109,8 @@ private:
 uint32_t first_body(vfit_frame frame);
 /// The id of the person to follow, who may be out of sight for a moment; 0: nobody.
 uint32_t active_body(vfit_frame frame);
+/// The same; 0 as well while they are out of sight.
+uint32_t active_body_in_view(vfit_frame frame);
 std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body_id);
 vfit_camera camera_of(vfit_frame frame);
 vfit_view view_of(vfit_frame frame, vfit_stream stream);

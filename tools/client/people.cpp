@@ -105,7 +105,7 @@ public:
 private:
     ScanRun run_;
     RefusedFrames refused_;
-    std::vector<uint32_t> bodies_;  // who is scanned, of each camera
+    std::vector<uint32_t> bodies_;  // id of the scanned person in each camera; 0: none yet
     uint32_t moments_ = 0;
     Progress progress_{"scanning"};
 };

@@ -14,7 +14,7 @@ namespace vfit::tools {
 
 namespace {
 
-// Which side is left may be unknown: these joints have none.
+// Middle joints: left and right may be exchanged.
 constexpr vfit_joint_id kMiddle[] = {VFIT_JOINT_PELVIS, VFIT_JOINT_CHEST, VFIT_JOINT_NECK, VFIT_JOINT_HEAD};
 
 // Between places of a joint by two cameras that see the same person: 0.01 to 0.03 m in practice.
@@ -33,7 +33,7 @@ struct Shared {
     std::vector<float> here, there;
 
     void add(vfit_frame a, vfit_frame b) {
-        const uint32_t body_a = active_body(a), body_b = active_body(b);
+        const uint32_t body_a = active_body_in_view(a), body_b = active_body_in_view(b);
         if (body_a == 0 || body_b == 0) return;
         const auto joints_a = joints_of(a, body_a), joints_b = joints_of(b, body_b);
         for (const vfit_joint_id id : kMiddle) {
@@ -99,7 +99,7 @@ void add_cameras(Command& app) {
     command.add_flag("--json", o->json, "Print JSON");
     add_track_options(command, o->track);
     command.callback([o] {
-        if (o->sources.size() < 2) throw WrongUsage("one camera alone stands nowhere: name two or more");
+        if (o->sources.size() < 2) throw WrongUsage("name two or more cameras");
         const Found found = find_places(*o);
         const std::string text = places_text(found.places);
         if (!o->out.empty()) write_text(o->out, text);
@@ -114,7 +114,7 @@ void add_cameras(Command& app) {
             const CameraPlace& place = found.places[i];
             const Json& report = found.report[i - 1];
             std::cout << o->sources[i] << ": turned by " << std::setprecision(1)
-                      << place.turned_rad * 57.29578f << " degrees to the left, origin at "
+                      << place.turned_rad / kRadPerDegree << " degrees to the left, origin at "
                       << std::setprecision(2) << place.position[0] << " " << place.position[1] << " "
                       << place.position[2] << " m; " << report["points"] << " points, "
                       << std::setprecision(3) << report["rms_m"].get<double>() << " m apart\n";

@@ -104,6 +104,13 @@ namespace Vfit.Tests
                     () => Context.AlignWorlds(new Float3[8], new Float3[8], out position, out rotation));
                 Assert.Throws<ArgumentOutOfRangeException>(
                     () => tracker.Submit(frame, default(Body), new Joint[2], -1, frame));
+                ScanState state;
+                using (var scan = new Scan(Context, new ScanDesc { CameraCount = 2 }))
+                    Assert.AreEqual(
+                        Result.ErrorArgument,
+                        Assert.Throws<VfitException>(() => scan.AddFrom(2, frame, 1, out state)).Code);
+                Assert.Throws<VfitException>(
+                    () => tracker.HintFrom(frame, 1, new Float3(0, 0, 0), new Float4(0, 0, 0, 0)));
                 var pose = new BodyPose { Count = 1000 };
                 Assert.Throws<ArgumentOutOfRangeException>(() => pose.Pack(Context, new byte[200]));
                 Assert.Throws<ArgumentOutOfRangeException>(() => pose.Unpack(Context, new byte[10], 11));

@@ -280,21 +280,22 @@ namespace Vfit
         internal static extern Result vfit_tracker_hint(TrackerId tracker, JointHint* items, uint stride,
             uint count);
 
-        /// <summary>For the next update alone: a person as another camera saw them at most about 50 ms ago,
-        /// which says whether they face this one: front and back look alike in depth. What single frames of
-        /// all cameras say is weighed, a body of a source or the host being sure. position and rotation (x,
-        /// y, z, w): the other camera's world space in this one's (vfit_world_align); within 0.3 m at the
-        /// person and 20 degrees is good enough. A second call adds another person or camera, up to 8:
-        /// VFIT_ERROR_CAPACITY. Does nothing where the joints are the source's. [excl]</summary>
+        /// <summary>A person of another camera's tracked frame, at most about 50 ms old, for the next update
+        /// alone. It helps to decide which way the person faces: front and back look alike in depth. The
+        /// evidence of single frames is added up over the cameras; a body of a source or of the host counts
+        /// as certain. position and rotation (x, y, z, w): the pose of the other camera's world space in this
+        /// one's (vfit_world_align), to 0.3 m at the person and 20 degrees. VFIT_INCOMPLETE: seen has no such
+        /// body, as while the active person is lost. Further calls add people or cameras, up to 8:
+        /// VFIT_ERROR_CAPACITY. No effect where the source supplies the joints. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_tracker_hint_from(TrackerId tracker, FrameId seen, uint bodyId,
             float* position, float* rotation);
 
-        /// <summary>Where another camera's world space lies in this one's, from count points (3 floats each)
-        /// that both saw at the same times, as joints of a person who walks about: MIDDLE joints, so that
-        /// nothing hangs on left and right. Both worlds have the same up. Single points that are wrong hardly
-        /// count. rms (may be null) is what is left between them. Fewer than 8 points, or all within 0.3 m:
-        /// VFIT_ERROR_DATA. [any]</summary>
+        /// <summary>The pose of another camera's world space in this one's, from count points (3 floats each)
+        /// that both cameras saw at the same times: joints of a person who walks about, MIDDLE joints, as
+        /// left and right may be exchanged. Up is the same in both. Outliers get little weight. rms (may be
+        /// null) is the weighted residual. Fewer than 8 points, points within 0.3 m of their mean, or not
+        /// within 1 km: VFIT_ERROR_DATA. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_world_align(ContextId context, float* here, float* there,
             uint count, float* position, float* rotation, float* rms);
@@ -338,11 +339,10 @@ namespace Vfit
         internal static extern Result vfit_scan_add(ScanId scan, FrameId tracked, uint bodyId,
             ScanState* state);
 
-        /// <summary>The same of several cameras, each with a tracker of its own: camera, from 0 on, says
-        /// which one saw the frame. First come the frames from the front, then those from the side, from
-        /// whichever cameras see the person so, then a few of each camera; turn_seen has the ways that all
-        /// see. guidance is of this camera; of one that has shown enough it is what another one still wants.
-        /// [excl]</summary>
+        /// <summary>A frame of one of several cameras, each with its own tracker; camera counts from 0. The
+        /// scan takes front views first, then side views, from any camera, then three frames of each camera;
+        /// turn_seen holds the ways of these. guidance concerns this camera; once it has shown enough, the
+        /// first camera that lacks frames. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_scan_add_from(ScanId scan, uint camera, FrameId tracked,
             uint bodyId, ScanState* state);

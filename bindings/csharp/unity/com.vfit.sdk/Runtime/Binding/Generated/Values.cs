@@ -890,10 +890,9 @@ namespace Vfit
         public uint SideFrameCount;
         /// <summary>VFIT_SCAN_*</summary>
         public ScanFlags Flags;
-        /// <summary>of FIT alone: cameras that see the person at once (vfit_scan_add_from), at most 8; 0:
-        /// one. Where three or more show the person all around, or from before, behind and one side, girths
-        /// of the trunk from the surface that they see together are combined with those of the other views.
-        /// Not with VFIT_SCAN_TURN</summary>
+        /// <summary>of FIT: cameras that see the person at the same time (vfit_scan_add_from), at most 8; 0:
+        /// one. Where they show front, back and a side, girths of the trunk are measured on the closed
+        /// surface and combined with the others. Not with VFIT_SCAN_TURN</summary>
         public uint CameraCount;
     }
 
