@@ -570,9 +570,9 @@ VFIT_API vfit_result vfit_tracker_hint(vfit_tracker tracker, const vfit_joint_hi
 VFIT_API vfit_result vfit_tracker_hint_from(vfit_tracker tracker, vfit_frame seen, uint32_t body_id,
                                             const float position[3], const float rotation[4]);
 /* The pose of another camera's world space in this one's, from count points (3 floats each) that both cameras
- * saw at the same times: joints of a person who walks about, MIDDLE joints, as left and right may be exchanged.
- * Up is the same in both. Outliers get little weight. rms (may be null) is the weighted residual. Fewer than 8
- * points, points within 0.3 m of their mean, or not within 1 km: VFIT_ERROR_DATA. [any] */
+ * saw at the same times: joints of a person who walks about, MIDDLE joints, as left and right may be
+ * exchanged. Up is the same in both. Outliers get little weight. rms (may be null) is the weighted residual.
+ * Fewer than 8 points, points within 0.3 m of their mean, or not within 1 km: VFIT_ERROR_DATA. [any] */
 VFIT_API vfit_result vfit_world_align(vfit_context context, const float* here, const float* there,
                                       uint32_t count, float position[3], float rotation[4], float* rms);
 /* Forgets people, room and choice. [excl] */
@@ -739,8 +739,9 @@ VFIT_API vfit_result vfit_scan_extend(vfit_scan scan, uint32_t frames, uint32_t 
 VFIT_API vfit_result vfit_scan_add(vfit_scan scan, vfit_frame tracked, uint32_t body_id,
                                    vfit_scan_state* state);
 /* A frame of one of several cameras, each with its own tracker; camera counts from 0. The scan takes front
- * views first, then side views, from any camera, then three frames of each camera; turn_seen holds the ways of
- * these. guidance concerns this camera; once it has shown enough, the first camera that lacks frames. [excl] */
+ * views first, then side views, from any camera, then three frames of each camera; turn_seen holds the ways
+ * of these. guidance concerns this camera; once it has shown enough, the first camera that lacks frames.
+ * [excl] */
 VFIT_API vfit_result vfit_scan_add_from(vfit_scan scan, uint32_t camera, vfit_frame tracked, uint32_t body_id,
                                         vfit_scan_state* state);
 /* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE. [read] */

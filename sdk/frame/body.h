@@ -29,8 +29,8 @@ struct Body {
     uint32_t id = 0;
     int64_t time_ns = 0;
     uint32_t flags = 0;  // VFIT_BODY_*
-    // Logit that the person faces this way and not the opposite one, by this frame alone. A body of a source or
-    // of the host is taken as certain.
+    // Logit that the person faces this way and not the opposite one, by this frame alone. A body of a source
+    // or of the host is taken as certain.
     float facing_logit = kSureFacing;
     std::array<Joint, kJointCount> joints{};  // by id
 

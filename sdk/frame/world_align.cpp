@@ -11,8 +11,9 @@ namespace vfit {
 namespace {
 
 constexpr size_t kFewest = 8;
-constexpr float kTogether_m = 0.3f;  // distance of the farthest point from the mean; below, noise sets the yaw
-constexpr float kStray_m = 0.1f;     // residual at which the weight has halved (Cauchy)
+constexpr float kTogether_m =
+    0.3f;                         // distance of the farthest point from the mean; below, noise sets the yaw
+constexpr float kStray_m = 0.1f;  // residual at which the weight has halved (Cauchy)
 constexpr int kRounds = 20;
 constexpr float kFarthest_m = 1000.0f;
 

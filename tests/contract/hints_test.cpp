@@ -314,7 +314,8 @@ TEST(WorldAlign, IsInTheAxesAndUnitOfTheContext) {
         for (int i = 0; i < 40; ++i) {
             float p[3], q[3];
             p[up] = 0.03f * metre * float(i % 5);
-            p[a] = metre * std::cos(0.16f * float(i)), p[b] = metre * std::sin(0.16f * float(i)) + 2.0f * metre;
+            p[a] = metre * std::cos(0.16f * float(i)),
+            p[b] = metre * std::sin(0.16f * float(i)) + 2.0f * metre;
             q[up] = p[up];
             q[a] = std::cos(turn) * p[a] - std::sin(turn) * p[b];
             q[b] = std::sin(turn) * p[a] + std::cos(turn) * p[b];

@@ -42,7 +42,8 @@ std::array<float, 4> CameraPlace::rotation() const {
 std::string places_text(const std::vector<CameraPlace>& places) {
     Json out = {{"format", "vfit-cameras"}, {"version", 1}, {"cameras", Json::array()}};
     for (const CameraPlace& place : places)
-        out["cameras"].push_back({{"position", place.position}, {"turned_deg", place.turned_rad / kRadPerDegree}});
+        out["cameras"].push_back(
+            {{"position", place.position}, {"turned_deg", place.turned_rad / kRadPerDegree}});
     return out.dump(2) + "\n";
 }
 

@@ -265,7 +265,7 @@ def test_cameras_that_stand_around_measure_together(ctx):
         scan.add(tracked, camera=4)
     with pytest.raises(vfit.ArgumentError, match="unit"):
         trackers[0].hint_from(seen, (0, 0, 0), (0, 0, 0, 0))
-    trackers[0].hint_from(seen, (0, 0, 0), body_id=9)  # nobody: no effect
+    trackers[0].hint_from(seen, (0, 0, 0), body_id=9)  # no such body: no effect
 
 
 def _matrix(place):
