@@ -8,6 +8,7 @@
 #include "api/measurements.h"
 #include "api/scan_object.h"
 #include "avatar/gltf_document.h"
+#include "body/shape_setting.h"
 #include "scan/scanned_body.h"
 
 using namespace vfit;
@@ -144,19 +145,13 @@ vfit_result vfit_avatar_create_from_shape(vfit_context handle, const vfit_avatar
         UseContext<Mode::any> context(handle);
         const AvatarDesc d = avatar_desc(desc);
         const auto model = context->body_model();
-        std::vector<float> shape = model->default_shape(d.sex);
         const Items<vfit_shape_value> values(items, stride, count, "items");
+        std::vector<ShapeSetting> settings;
         for (uint32_t i = 0; i < values.size(); ++i) {
             const vfit_shape_value v = values[i];
-            const std::string key = get_text(v.key);
-            const int parameter = model->parameter(key);
-            if (parameter < 0)
-                fail(VFIT_ERROR_ARGUMENT, "\"", key, "\" is no shape value; see vfit_shape_list");
-            const ShapeParameter& p = model->parameters()[static_cast<size_t>(parameter)];
-            if (!(v.value >= p.minimum && v.value <= p.maximum))
-                fail(VFIT_ERROR_ARGUMENT, key, ": ", v.value, " is not in ", p.minimum, "..", p.maximum);
-            shape[static_cast<size_t>(parameter)] = v.value;
+            settings.push_back({get_text(v.key), v.value});
         }
+        const std::vector<float> shape = shape_of(*model, d.sex, settings);
         publish(*context, make<AvatarObject>(context.ref(), d, shape, Vec2(1.0f)), out);
         return VFIT_OK;
     });

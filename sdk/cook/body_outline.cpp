@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "geometry/section.h"
@@ -87,7 +88,10 @@ Outline Outline::mix(const Outline& a, const Outline& b, float t) {
 }
 
 BodyOutline::BodyOutline(const BodyModel& model, vfit_sex sex)
-    : body_(default_body(model, sex)),
+    : BodyOutline(model, default_body(model, sex)) {}
+
+BodyOutline::BodyOutline(const BodyModel& model, EvaluatedBody body)
+    : body_(std::move(body)),
       trunk_indices_(trunk_and_legs(model.topology(0))),
       skin_(body_.positions, model.topology(0).indices) {
     const auto joint = [&](int bone) { return body_.bone_heads[size_t(model.rig_bone(bone))]; };
@@ -104,6 +108,23 @@ BodyOutline::BodyOutline(const BodyModel& model, vfit_sex sex)
     // The middle of the thinnest section lies well inside the others.
     const Extent waist = extent(points_at(levels_.waist));
     axis_z_ = 0.5f * (waist.minimum.y + waist.maximum.y);
+}
+
+std::optional<Vec3> ridge(const MeshQuery& mesh, const Vec3& above, float depth_m) {
+    constexpr float kStep_m = 0.01f, kUpright = 0.6f, kFar_m = 8.0f;
+    std::optional<Vec3> out;
+    for (float z = -depth_m; z <= depth_m; z += kStep_m) {
+        const Vec3 from = above + Vec3(0.0f, 0.0f, z);
+        const auto hit = mesh.cast(from, {0, -1, 0}, kFar_m);
+        if (!hit || std::abs(hit->normal.y) < kUpright) continue;
+        if (const float y = from.y - hit->distance; !out || y > out->y) out = Vec3(from.x, y, from.z);
+    }
+    return out;
+}
+
+std::optional<Vec3> BodyOutline::shoulder_ridge(float x) const {
+    constexpr float kNear_m = 0.08f, kBelowChin_m = 0.1f;
+    return ridge(skin_, {x, left_shoulder_.y + kBelowChin_m, left_shoulder_.z}, kNear_m);
 }
 
 std::vector<Vec2> BodyOutline::points_at(float y) const {

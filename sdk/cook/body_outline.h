@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,15 +30,22 @@ struct TailorLevels {
     float shoulder, bust, waist, hip, knee, ankle;
 };
 
+/// The highest place where the mesh lies flat, seen from `above` over so much to the back and to the front.
+std::optional<Vec3> ridge(const MeshQuery& mesh, const Vec3& above, float depth_m);
+
 class BodyOutline {
 public:
     /// The model's default body of that sex.
     BodyOutline(const BodyModel& model, vfit_sex sex);
+    BodyOutline(const BodyModel& model, EvaluatedBody body);
 
     const TailorLevels& levels() const { return levels_; }
     float axis_z() const { return axis_z_; }
     const Vec3& left_shoulder() const { return left_shoulder_; }
     const MeshQuery& skin() const { return skin_; }
+
+    /// The top of the shoulder, or of the arm beside it, at that x; nothing beside the body.
+    std::optional<Vec3> shoulder_ridge(float x) const;
 
     /// Convex outline at that height (a tape does not follow hollows).
     Outline at(float y) const;

@@ -8,6 +8,7 @@
 #include "avatar/gltf_document.h"
 #include "cook/cook_model.h"
 #include "cook/draft/draft.h"
+#include "cook/drawn_for.h"
 #include "cook/model/gltf.h"
 #include "cook/model/obj.h"
 #include "cook/pattern/garmentcode.h"
@@ -53,18 +54,52 @@ CookedGarment cook_on_either(const BodyModel& model, const std::vector<PatternSi
     }
 }
 
+/// Where GarmentCode keeps the measures of the body that a pattern was drawn for; empty: there are none.
+std::string measures_beside(const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    for (const std::string& name :
+         {name_of(path) + "_body_measurements.yaml", std::string("body_measurements.yaml")})
+        if (const auto file = folder / name; std::filesystem::exists(file)) return file.string();
+    return "";
+}
+
+/// The body of a request, where it names one.
+std::optional<BodyDrawnFor> body_of(const BodyModel& model, const CookRequest& request,
+                                    const std::string& measures) {
+    if (!request.shape.empty())
+        return BodyDrawnFor{
+            request.sex == VFIT_SEX_UNKNOWN ? VFIT_SEX_FEMALE : request.sex, request.shape, {}};
+    if (measures.empty()) return std::nullopt;
+    const std::vector<std::byte> bytes = read_file(measures);
+    try {
+        DrawnFor drawn_for = parse_drawn_for({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        if (request.sex != VFIT_SEX_UNKNOWN) drawn_for.sex = request.sex;
+        return body_drawn_for(model, drawn_for);
+    } catch (const Error& error) {
+        fail(error.code(), measures, ": ", error.what());
+    }
+}
+
 CookedGarment cook_specification(const BodyModel& model, const FabricLibrary& fabrics,
                                  const CookRequest& request, std::span<const std::byte> text, Jobs& jobs) {
     CookOptions options;
-    if (!request.kind.empty()) options.kind = request.kind;
+    if (!request.kind.empty()) options.kind = request.kind, options.kind_told = true;
     if (!request.fabric.empty()) options.fabric = request.fabric;
     options.size_chart = request.size_chart;
     if (request.sex != VFIT_SEX_UNKNOWN) options.sex = request.sex;
     options.triangle_m = request.triangle_m;
     options.drape = request.drape;
-    const Pattern pattern =
-        parse_garmentcode(text, request.name.empty() ? name_of(request.path) : request.name);
+    Pattern pattern = parse_garmentcode(text, request.name.empty() ? name_of(request.path) : request.name);
+    const std::string measures = request.measures.empty() ? measures_beside(request.path) : request.measures;
+    const auto body = body_of(model, request, measures);
+    pattern.worn_as_placed = body && request.shape.empty();
     const std::vector<PatternSize> sizes{{"", {}, pattern}};
+    if (body) {
+        options.sex = body->sex, options.shape = body->shape;
+        CookedGarment cooked = cook_pattern(model, sizes, 0, fabrics, options, jobs);
+        cooked.notes.insert(cooked.notes.begin(), body->notes.begin(), body->notes.end());
+        return cooked;
+    }
     if (request.sex != VFIT_SEX_UNKNOWN) return cook_pattern(model, sizes, 0, fabrics, options, jobs);
     return cook_on_either(model, sizes, fabrics, options, jobs);
 }
@@ -108,11 +143,13 @@ CookedGarment cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, co
                         Jobs& jobs) {
     ModelOptions options;
     options.name = request.name.empty() ? name_of(request.path) : request.name;
-    if (!request.kind.empty()) options.cook.kind = request.kind;
+    if (!request.kind.empty()) options.cook.kind = request.kind, options.cook.kind_told = true;
     if (!request.fabric.empty()) options.cook.fabric = request.fabric;
     options.cook.size_chart = request.size_chart;
     if (request.sex != VFIT_SEX_UNKNOWN) options.cook.sex = request.sex;
     options.cook.drape = request.drape;
+    if (const auto body = body_of(model, request, request.measures))
+        options.cook.sex = body->sex, options.cook.shape = body->shape;
     options.unit_m = ending_of(request.path) == ".obj" ? request.unit_m : 1.0f;
     options.size_label = request.size_label;
     try {

@@ -12,6 +12,10 @@ struct CookRequest {
     // Empty: as the file tells, or as CookOptions has it.
     std::string name, kind, fabric, size_chart;
     vfit_sex sex = VFIT_SEX_UNKNOWN;
+    // The body that it is made on: a file of measures, or shape values; without both, of a specification the
+    // measures that lie beside it.
+    std::string measures;
+    std::vector<ShapeSetting> shape;
     // Of a mesh: the unit of an OBJ file's numbers, and the label of its size (empty: none).
     float unit_m = 1.0f;
     std::string size_label;

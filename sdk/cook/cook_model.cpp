@@ -4,8 +4,11 @@
 #include <cmath>
 
 #include "cloth/garment/cut.h"
+#include "cook/cook_body.h"
+#include "cook/drape/grow_body.h"
 #include "cook/model/stand.h"
 #include "cook/model/surface.h"
+#include "cook/worn.h"
 #include "core/clock.h"
 #include "core/error.h"
 
@@ -47,7 +50,7 @@ std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& pl
 void add_notes(const WholeCloth& cloth, float thickness_m, const Standing& standing, const Draped& draped,
                std::vector<std::string>& notes) {
     const auto percent = [](float share) { return int(share * 100.0f + 0.5f); };
-    constexpr float kMuch = 0.05f, kStretched = 0.2f;
+    constexpr float kMuch = 0.05f;
     if (standing.moved.z != 0.0f)
         notes.push_back(text("it stood ", percent(std::abs(standing.moved.z)), " cm too far ",
                              standing.moved.z < 0.0f ? "forward" : "back", " and was moved"));
@@ -66,13 +69,7 @@ void add_notes(const WholeCloth& cloth, float thickness_m, const Standing& stand
         notes.push_back(text(
             "its triangles are ", side_mm,
             " mm large: too small for its own layers to be kept apart while it settled (20 mm do well)"));
-    if (draped.report.strain_p99 > kStretched)
-        notes.push_back(text("it is stretched on this body: a hundredth of its sides by ",
-                             percent(draped.report.strain_p99), " % or more"));
-    if (draped.report.skin_crossings > 0)
-        notes.push_back(text("the skin stands out of it in ", draped.report.skin_crossings, " places"));
-    if (draped.report.self_crossings > 0)
-        notes.push_back(text("it goes through itself in ", draped.report.self_crossings, " places"));
+    add_drape_notes(draped.report, notes);
     if (std::find(draped.simulated.begin(), draped.simulated.end(), 0) == draped.simulated.end())
         notes.push_back("it is held nowhere: all of it is simulated, and may slide off");
 }
@@ -84,15 +81,11 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     const Stopwatch watch;
     Surface surface = make_surface(model, options.unit_m);
     const FabricMaterial material = fabrics.get(options.cook.fabric);
-    EvaluatedBody evaluated;
-    body_model.evaluate(body_model.default_shape(options.cook.sex), evaluated);
-    const BodyTopology& topology = body_model.topology(0);
-    const MeshQuery skin(evaluated.positions, topology.indices);
-    const BodyOutline outline(body_model, options.cook.sex);
-    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder(),
-                         topology.parts};
+    const CookBody made_on(body_model, options.cook.sex, options.cook.shape);
+    const MeshQuery& skin = made_on.skin();
+    const DrapeBody& body = made_on.for_drape();
     const float thickness = options.cook.drape.thickness_m;
-    const Standing standing = stand(surface, outline, skin, thickness);
+    const Standing standing = stand(surface, made_on.outline(), skin, thickness);
 
     CookedGarment out;
     Garment& g = out.garment;
@@ -100,7 +93,8 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     g.kind = options.cook.kind;
     g.size_chart = options.cook.size_chart;
     g.fabric = options.cook.fabric;
-    g.body_sex = options.cook.sex;
+    g.body_sex = made_on.sex();
+    g.body_shape = made_on.settings();
     g.mesh.indices = surface.indices;
     g.mesh.uvs = surface.uvs;
     g.copies = surface.copies;
@@ -109,11 +103,12 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     const std::vector<Vec2> cut = cut_corners(g);
     const WholeCloth cloth{surface.indices, cut, &material};
     constexpr float kOtherBody = 0.005f;  // of its vertices that lie well within ours
+    constexpr Stance kThinnest{0.2f};
     std::vector<Vec3> places = standing.places;
     if (options.cook.drape.watch) options.cook.drape.watch("placed", places);
     if (standing.inside_share > kOtherBody)
-        places = grow_body_into(cloth, std::move(places), evaluated, topology, thickness, jobs);
-    const Draped draped = settle(cloth, pushed_out(std::move(places), skin, thickness), standing.band, body,
+        places = grow_body_into(cloth, std::move(places), made_on, kThinnest, {}, thickness, jobs);
+    const Draped draped = settle(cloth, pushed_out(std::move(places), skin, thickness), standing.hold, body,
                                  options.cook.drape, jobs);
     out.report = draped.report;
     out.report.hangs_on = standing.hangs_on;
@@ -126,6 +121,8 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     if (!options.size_label.empty()) g.sizes.push_back({options.size_label, {}, {}});
     turn_outside_out(g, skin);
     validate_garment(g, fabrics);
+    out.round = goes_round(g.mesh.positions, g.mesh.indices, made_on);
+    check_worn(out.round, options.cook.kind_told ? options.cook.kind : "");
 
     out.notes = model.notes;
     out.notes.insert(out.notes.end(), surface.notes.begin(), surface.notes.end());

@@ -1,7 +1,12 @@
 #include "cook/cook_pattern.h"
 
 #include <algorithm>
+#include <cmath>
+#include <exception>
+#include <optional>
 
+#include "cook/cook_body.h"
+#include "cook/worn.h"
 #include "core/error.h"
 
 namespace vfit {
@@ -98,24 +103,29 @@ void turn_outside_out(Garment& g, const MeshQuery& skin) {
     compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
 }
 
+void add_drape_notes(const DrapeReport& report, std::vector<std::string>& notes) {
+    constexpr float kStretched = 0.2f;
+    if (report.strain_p99 > kStretched)
+        notes.push_back(text("it is stretched on this body: a hundredth of its sides by ",
+                             std::lround(100.0f * report.strain_p99), " % or more"));
+    if (report.skin_crossings > 0)
+        notes.push_back(text("the skin stands out of it in ", report.skin_crossings, " places"));
+    if (report.self_crossings > 0)
+        notes.push_back(text("it goes through itself in ", report.self_crossings, " places"));
+}
+
 namespace {
 
-CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base,
+CookedGarment cook_once(const CookBody& body, const std::vector<PatternSize>& sizes, size_t base,
                         const FabricLibrary& fabrics, const CookOptions& options, float triangle_m,
-                        Jobs& jobs) {
+                        const Stance& stance, Jobs& jobs) {
     const Pattern& pattern = sizes[base].pattern;
     const SewnMesh mesh = sew(pattern, triangle_m);
     const FabricMaterial material = fabrics.get(options.fabric);
 
-    EvaluatedBody evaluated;
-    model.evaluate(model.default_shape(options.sex), evaluated);
-    const BodyTopology& topology = model.topology(0);
-    const MeshQuery skin(evaluated.positions, topology.indices);
-    const BodyOutline outline(model, options.sex);
-    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder(),
-                         topology.parts};
     const Draped draped =
-        drape(pattern, mesh, material, body, place_panels(pattern, mesh, outline, skin), options.drape, jobs);
+        drape(pattern, mesh, material, body, stance, place_panels(pattern, mesh, body.outline(), body.skin()),
+              options.drape, jobs);
 
     const DrawnOrder order(mesh);
     CookedGarment out;
@@ -125,7 +135,8 @@ CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& 
     g.kind = options.kind;
     g.size_chart = options.size_chart;
     g.fabric = options.fabric;
-    g.body_sex = options.sex;
+    g.body_sex = body.sex();
+    g.body_shape = body.settings();
     g.mesh.positions = draped.positions;
     g.mesh.indices = mesh.sewn_indices;
     g.copies = order.copies;
@@ -134,7 +145,7 @@ CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& 
     g.mesh.uvs = uvs_of(g.flat);
     g.simulated = draped.simulated;
     g.backstop.assign(mesh.sewn_count, 0);
-    g.on_arm = on_arms(mesh, draped.positions, body);
+    g.on_arm = on_arms(mesh, draped.positions, body.for_drape());
     g.parts = parts_of(pattern, mesh);
     for (const PatternSize& size : sizes) {
         if (size.label.empty()) continue;
@@ -146,9 +157,22 @@ CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& 
             fail(error.code(), "size ", size.label, ": ", error.what());
         }
     }
-    turn_outside_out(g, skin);
+    turn_outside_out(g, body.skin());
     validate_garment(g, fabrics);
+    out.round = goes_round(g.mesh.positions, g.mesh.indices, body);
+    check_worn(out.round, options.kind_told ? options.kind : "");
+    add_drape_notes(out.report, out.notes);
     return out;
+}
+
+/// About the body at rest; then about a thin one that grows in the garment, for sleeves that are narrow for
+/// the arms, with legs together, for skirts that are narrow for legs apart, and with arms level, so that
+/// sleeves cut in one with the front close below them, and a wide skirt does not catch on hands.
+std::vector<Stance> stances(const Pattern& pattern, const BodyOutline& outline) {
+    constexpr float kThin = 0.6f;
+    const bool skirt = !has_legs(pattern, outline);
+    if (has_sleeves(pattern, outline)) return {{}, {kThin, skirt, false}, {kThin, skirt, true}};
+    return {{}, {kThin, skirt, true}};
 }
 
 }  // namespace
@@ -157,23 +181,31 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
                            const FabricLibrary& fabrics, const CookOptions& options, Jobs& jobs) {
     if (base >= sizes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no size ", base);
     check_pattern(sizes[base].pattern);
-    CookedGarment best = cook_once(model, sizes, base, fabrics, options, options.triangle_m, jobs);
+    const CookBody body(model, options.sex, options.shape);
+    double seconds = 0.0;
+    std::optional<CookedGarment> best;
+    Stance of_best;
+    std::exception_ptr fault;
+    const auto cook = [&](const Stance stance, float triangles) {
+        if (best && best->report.crossings() == 0) return;
+        try {
+            CookedGarment cooked =
+                cook_once(body, sizes, base, fabrics, options, options.triangle_m * triangles, stance, jobs);
+            seconds += cooked.report.seconds;
+            if (best && cooked.report.crossings() >= best->report.crossings()) return;
+            best = std::move(cooked);
+            of_best = stance;
+        } catch (const Error&) {
+            if (!fault) fault = std::current_exception();
+        }
+    };
+    for (const Stance& stance : stances(sizes[base].pattern, body.outline())) cook(stance, 1.0f);
+    if (!best) std::rethrow_exception(fault);
     // Whether a fold gets caught when cloth falls from where it was sewn is chance: with triangles of a
     // little another size it falls anew.
-    double seconds = best.report.seconds;
-    for (const float other : {0.95f, 1.05f, 0.9f}) {
-        if (best.report.crossings() == 0) break;
-        try {
-            CookedGarment again =
-                cook_once(model, sizes, base, fabrics, options, options.triangle_m * other, jobs);
-            seconds += again.report.seconds;
-            if (again.report.crossings() < best.report.crossings()) best = std::move(again);
-        } catch (const Error&) {
-            // What it was draped to at first is better than nothing.
-        }
-    }
-    best.report.seconds = seconds;
-    return best;
+    for (const float triangles : {0.95f, 1.05f, 0.9f}) cook(of_best, triangles);
+    best->report.seconds = seconds;
+    return std::move(*best);
 }
 
 }  // namespace vfit

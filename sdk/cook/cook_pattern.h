@@ -1,11 +1,11 @@
-// From a sewing pattern, in one or several sizes, to a garment: meshed, sewn, draped on the default body of a
-// sex.
+// From a sewing pattern, in one or several sizes, to a garment: meshed, sewn, draped on a body.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "body/body_model.h"
+#include "body/shape_setting.h"
 #include "cloth/fabric/fabric_library.h"
 #include "cloth/garment/garment.h"
 #include "cook/drape/drape.h"
@@ -22,24 +22,30 @@ struct PatternSize {
 };
 
 struct CookOptions {
-    std::string kind = "dress", fabric = "cotton_woven";
+    std::string kind = "dress";
+    bool kind_told = false;  // the garment has to go round what its kind does
+    std::string fabric = "cotton_woven";
     std::string size_chart;  // name of the chart that the labels follow; empty: not stated
     vfit_sex sex = VFIT_SEX_FEMALE;
-    float triangle_m = 0.02f;  // side
+    std::vector<ShapeSetting> shape;  // of the body that it is made on; empty: the default one of the sex
+    float triangle_m = 0.02f;         // side
     DrapeSettings drape;
 };
 
 struct CookedGarment {
     Garment garment;
     DrapeReport report;
-    // Of a modelled garment:
+    std::vector<std::string> round;  // what it goes round (worn.h)
     std::vector<std::string> notes;  // of what was mended, left out, not found, or is to be looked at
-    std::vector<float> openings_m;   // around each
+    std::vector<float> openings_m;   // of a modelled garment: around each
 };
 
 /// Triangles and seams agree on which side of the cloth is out, not on which of the two it is: that which
 /// looks away from the body.
 void turn_outside_out(Garment& garment, const MeshQuery& skin);
+
+/// What is to be looked at in how it lies.
+void add_drape_notes(const DrapeReport& report, std::vector<std::string>& notes);
 
 /// base: the size that is draped; the others have its mesh in their own lengths. What crosses itself or the
 /// skin is draped again, up to three times, with triangles of a slightly other size. VFIT_ERROR_DATA names

@@ -46,11 +46,23 @@ std::string write_garment(const Garment& garment) {
         return Json(s).dump(-1, ' ', false, Json::error_handler_t::replace);
     };
     std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") +
-                      (garment.has_own_lengths() ? "2" : "1") + ",\n";
+                      (!garment.body_shape.empty() ? "3"
+                       : garment.has_own_lengths() ? "2"
+                                                   : "1") +
+                      ",\n";
     out += " \"name\": " + quoted(garment.name) + ", \"kind\": " + quoted(garment.kind);
     if (!garment.size_chart.empty()) out += ", \"size_chart\": " + quoted(garment.size_chart);
     out += ", \"fabric\": " + quoted(garment.fabric);
-    out += std::string(", \"body_sex\": \"") + (garment.body_sex == VFIT_SEX_MALE ? "m" : "f") + "\",\n";
+    out += std::string(", \"body_sex\": \"") + (garment.body_sex == VFIT_SEX_MALE ? "m" : "f") + "\"";
+    if (!garment.body_shape.empty()) {
+        out += ", \"body_shape\": {";
+        for (size_t i = 0; i < garment.body_shape.size(); ++i) {
+            out += (i > 0 ? ", " : "") + quoted(garment.body_shape[i].key) + ": ";
+            add(out, garment.body_shape[i].value);
+        }
+        out += "}";
+    }
+    out += ",\n";
     out += " \"sizes\": [";
     for (size_t i = 0; i < garment.sizes.size(); ++i) {
         out += (i > 0 ? ", " : "") + std::string("{\"label\": ") + quoted(garment.sizes[i].label);

@@ -4,18 +4,26 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
+
 namespace vfit {
 
 WearableGarment::WearableGarment(Garment garment, const FabricMaterial& material,
                                  std::shared_ptr<const BodyModel> model)
-    : garment_(std::move(garment)), material_(material), model_(std::move(model)) {}
+    : garment_(std::move(garment)), material_(material), model_(std::move(model)) {
+    try {
+        shape_of(*model_, garment_.body_sex, garment_.body_shape);
+    } catch (const Error& error) {
+        fail(VFIT_ERROR_DATA, "garment: \"body_shape\": ", error.what());
+    }
+}
 
 const BoundGarment& WearableGarment::bound(uint32_t detail, Jobs& jobs) const {
     std::lock_guard lock(mutex_);
     std::unique_ptr<const BoundGarment>& known = bound_[detail];
     if (known) return *known;
     EvaluatedBody body;
-    model_->evaluate(model_->default_shape(garment_.body_sex), body);
+    model_->evaluate(shape_of(*model_, garment_.body_sex, garment_.body_shape), body);
     std::vector<Vec3> positions;
     model_->subdivide(detail, body.positions, positions);
     const BodyTopology& t = model_->topology(detail);

@@ -14,7 +14,7 @@
 #include "client/assets.h"
 #include "client/fitting.h"
 #include "client/output.h"
-#include "population/body_with_measures.h"
+#include "population/body_measures.h"
 
 namespace vfit::tools {
 

@@ -11,7 +11,7 @@
 #include "bench/bench.h"
 #include "client/output.h"
 #include "core/platform.h"
-#include "population/body_with_measures.h"
+#include "population/body_measures.h"
 #include "population/population.h"
 
 namespace vfit::tools {

@@ -7,9 +7,11 @@
 #include "body/body_model.h"
 #include "client/files.h"
 #include "client/output.h"
+#include "client/shape_option.h"
 #include "commands/commands.h"
 #include "cook/cook_file.h"
 #include "cook/garment_writer.h"
+#include "cook/worn.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/platform.h"
@@ -19,7 +21,8 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit = "m", size_label;
+    std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit = "m", size_label, measures,
+                                                                           shape;
     float triangle_mm = 20.0f;
     bool json = false;
 };
@@ -49,15 +52,15 @@ Json report_of(const CookedGarment& cooked) {
     out["hangs_on"] = r.hangs_on == HangsOn::shoulders ? "shoulders"
                       : r.hangs_on == HangsOn::waist   ? "waist"
                                                        : "nothing";
+    out["goes_round"] = cooked.round;
     out["raised_m"] = r.raised_m;
     out["widest_seam_m"] = r.widest_seam_m;
     out["skin_crossings"] = r.skin_crossings;
     out["self_crossings"] = r.self_crossings;
     out["strain_p99"] = r.strain_p99;
     out["seconds"] = r.seconds;
-    if (g.cut_shape.empty()) return out;
-    out["openings_m"] = cooked.openings_m;
     out["warnings"] = cooked.notes;
+    if (!g.cut_shape.empty()) out["openings_m"] = cooked.openings_m;
     return out;
 }
 
@@ -79,6 +82,9 @@ public:
         request.sex = options_.sex.empty()  ? VFIT_SEX_UNKNOWN
                       : options_.sex == "m" ? VFIT_SEX_MALE
                                             : VFIT_SEX_FEMALE;
+        request.measures = options_.measures;
+        for (const vfit_shape_value& value : shape_values(options_.shape))
+            request.shape.push_back({value.key, value.value});
         request.triangle_m = options_.triangle_mm / 1000.0f;
         request.unit_m = options_.unit == "mm" ? 0.001f : options_.unit == "cm" ? 0.01f : 1.0f;
         request.size_label = options_.size_label;
@@ -100,9 +106,11 @@ std::string line_of(const Json& r) {
     std::string line = text(r["garment"].get<std::string>(), ": ", r["vertices"].get<int>(), " vertices, ",
                             r["simulated"].get<int>(), " of them simulated");
     if (r.contains("seconds"))
-        line += text(", ", r["skin_crossings"].get<int>(), " crossings with the skin, ",
-                     r["self_crossings"].get<int>(), " with itself, in ",
-                     int(r["seconds"].get<double>() * 10.0) / 10.0, " s");
+        line +=
+            text(", worn from the ", r["hangs_on"].get<std::string>(), ", goes round ",
+                 listed(r["goes_round"].get<std::vector<std::string>>()), ", ",
+                 r["skin_crossings"].get<int>(), " crossings with the skin, ", r["self_crossings"].get<int>(),
+                 " with itself, in ", int(r["seconds"].get<double>() * 10.0) / 10.0, " s");
     line += ", in " + r["file"].get<std::string>();
     if (r.contains("warnings"))
         for (const Json& warning : r["warnings"]) line += "\n  " + warning.get<std::string>();
@@ -204,6 +212,12 @@ void add_cook(Command& app) {
                     "Of a specification or mesh: on whose default body it is draped (default f; of a "
                     "specification the better of both)")
         .one_of({"f", "m"});
+    command.add_option(
+        "--measures", o->measures,
+        "Measures of the body that it was drawn for: GarmentCode's body_measurements.yaml or a "
+        "profile (default: of a specification, those beside it)");
+    command.add_option("--shape", o->shape,
+                       "The body that it was made on: height=0.7,weight=1 (docs/virtual-person.md)");
     command.add_option("--size-label", o->size_label,
                        "Of a mesh: the label of the size that it is modelled in");
     command.add_option("--unit", o->unit, "Of an OBJ file: m, cm or mm (default m)")

@@ -7,6 +7,7 @@
 #include "client/files.h"
 #include "client/output.h"
 #include "client/people.h"
+#include "client/shape_option.h"
 #include "commands/commands.h"
 #include "picture/contact_sheet.h"
 #include "picture/dressed_picture.h"
@@ -26,23 +27,6 @@ struct Options {
     bool json = false, draft = false;
 };
 
-/// "height=0.7,weight=1".
-std::vector<vfit_shape_value> shape_of(const std::string& text) {
-    std::vector<vfit_shape_value> values;
-    if (text.empty()) return values;
-    for (const std::string& part : split(text, ',')) {
-        const auto parts = split(part, '=');
-        vfit_shape_value v = vfit_shape_value_init();
-        char* end = nullptr;
-        if (parts.size() == 2) v.value = std::strtof(parts[1].c_str(), &end);
-        if (parts.size() != 2 || parts[0].size() >= sizeof v.key || !end || end == parts[1].c_str() || *end)
-            throw Failure("--shape: \"" + part + "\" is not KEY=NUMBER");
-        std::snprintf(v.key, sizeof v.key, "%s", parts[0].c_str());
-        values.push_back(v);
-    }
-    return values;
-}
-
 const char* word_of(vfit_fit fit) {
     return fit == VFIT_FIT_TIGHT ? "tight" : fit == VFIT_FIT_LOOSE ? "loose" : "right";
 }
@@ -54,7 +38,7 @@ public:
         : size_(size) {
         vfit_avatar_desc desc = vfit_avatar_desc_init();
         desc.sex = sex_from(options.sex);
-        const auto shape = shape_of(options.shape);
+        const auto shape = shape_values(options.shape);
         check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value),
                                             uint32_t(shape.size()), avatar_.out()));
         stand(avatar_.get(), 0.08f);

@@ -197,9 +197,14 @@ void VirtualPeople::change_locally(Random& random, std::vector<float>& shape) co
     }
 }
 
-const BodyWithMeasures& VirtualPeople::solver(vfit_sex sex, bool with_reaches) {
+BodyWithMeasures& VirtualPeople::solver(vfit_sex sex, bool with_reaches) {
+    constexpr double kNavelShare = 0.601;  // of stature (ANSUR II)
     auto& one = (with_reaches ? reaching_ : usual_)[sex == VFIT_SEX_MALE ? 1 : 0];
-    if (!one) one.emplace(model_, sex, free_shapes(space_, with_reaches), wanted_keys(space_, with_reaches));
+    if (!one)
+        one.emplace(model_, sex, free_shapes(space_, with_reaches), wanted_keys(space_, with_reaches),
+                    [model = model_, sex](const std::vector<float>& shape) {
+                        return measures_of(model, sex, shape, kNavelShare);
+                    });
     return *one;
 }
 
@@ -221,12 +226,15 @@ PersonOfPopulation VirtualPeople::draw(uint32_t number) {
         shape[size_t(model_->parameter("weight"))] =
             std::clamp(float(0.5 + 0.05 * (real.bmi() - 22.0)), 0.3f, 1.1f);
         const double navel_share = real["waistheightomphalion"] / real["stature"];
+        const auto measure = [&](const std::vector<float>& of) {
+            return measures_of(model_, sex, of, navel_share);
+        };
         std::vector<WantedMeasure> wanted;
         for (const SurveyRow& row : kRows)
             wanted.push_back({row.measure, row.share * real[row.survey] * 1e-3, row.tolerance_m});
         PersonOfPopulation out;
         try {
-            if (!is_varied) out.measures = solver(sex, false).solve(wanted, navel_share, shape);
+            if (!is_varied) out.measures = solver(sex, false).solve(wanted, measure, shape);
             if (space_ != BodySpace::kInside) {
                 change_locally(random, shape);
                 for (const Reach& reach : reaches(space_)) {
@@ -239,7 +247,7 @@ PersonOfPopulation VirtualPeople::draw(uint32_t number) {
                                    : out.measures[reach.measure] * value / usual,
                          kReachTolerance_m});
                 }
-                out.measures = solver(sex, true).solve(wanted, navel_share, shape);
+                out.measures = solver(sex, true).solve(wanted, measure, shape);
             }
         } catch (const Error&) {
             continue;  // legs that never part and the like

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "population/anthropometry.h"
-#include "population/body_with_measures.h"
+#include "population/body_measures.h"
 
 namespace vfit::tools {
 
@@ -44,7 +44,7 @@ public:
 
 private:
     SurveyMeasures draw_measures(vfit_sex sex, Random& random) const;
-    const BodyWithMeasures& solver(vfit_sex sex, bool with_reaches);
+    BodyWithMeasures& solver(vfit_sex sex, bool with_reaches);
     std::vector<float> random_shape(vfit_sex sex, Random& random) const;
     void change_locally(Random& random, std::vector<float>& shape) const;
 

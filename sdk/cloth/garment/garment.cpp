@@ -98,6 +98,16 @@ std::vector<GarmentSize> sizes(const Json& root) {
     return out;
 }
 
+std::vector<ShapeSetting> shape_settings(const Json& object) {
+    if (!object.is_object()) fail(VFIT_ERROR_DATA, "garment: \"body_shape\" is not an object");
+    std::vector<ShapeSetting> out;
+    for (const auto& [key, value] : object.items()) {
+        if (!value.is_number()) fail(VFIT_ERROR_DATA, "garment: \"body_shape\": ", key, " is not a number");
+        out.push_back({key, value.get<float>()});
+    }
+    return out;
+}
+
 std::vector<GarmentPart> parts(const Json& root) {
     const Json& list = field(root, "parts");
     if (!list.is_array()) fail(VFIT_ERROR_DATA, "garment: \"parts\" is not an array");
@@ -301,8 +311,8 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     const Json& version = field(root, "version");
     if (!version.is_number_unsigned() || version.get<uint64_t>() == 0)
         fail(VFIT_ERROR_DATA, "garment: \"version\" is not a version number");
-    if (version.get<uint64_t>() > 2)
-        fail(VFIT_ERROR_VERSION, "garment: version ", version.get<uint64_t>(), " is not known, 1 and 2 are");
+    if (version.get<uint64_t>() > 3)
+        fail(VFIT_ERROR_VERSION, "garment: version ", version.get<uint64_t>(), " is not known, 1 to 3 are");
 
     Garment g;
     g.name = text_field(root, "name");
@@ -312,6 +322,7 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     const std::string sex = text_field(root, "body_sex");
     if (sex != "f" && sex != "m") fail(VFIT_ERROR_DATA, "garment: body_sex is neither \"f\" nor \"m\"");
     g.body_sex = sex == "f" ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
+    if (root.contains("body_shape")) g.body_shape = shape_settings(root["body_shape"]);
     g.mesh.positions = places(root, "positions");
     g.mesh.uvs = pairs(root, "uvs");
     g.mesh.indices = indices(root, "indices");

@@ -1,5 +1,5 @@
-// What a garment file holds: a mesh authored on the default body of one sex in its rest pose, which of its
-// vertices are simulated, its fabric and its sizes. The format is described in docs/garments.md.
+// What a garment file holds: a mesh authored on a body of one sex in its rest pose, which of its vertices
+// are simulated, its fabric and its sizes. The format is described in docs/garments.md.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "anthropometry/measurement.h"
 #include "body/mesh.h"
+#include "body/shape_setting.h"
 #include "cloth/fabric/fabric_library.h"
 #include "vfit.h"
 
@@ -37,6 +38,7 @@ struct Garment {
     std::string size_chart;  // name of the chart that its labels follow; empty: not stated
     std::string fabric;      // name in the fabric library
     vfit_sex body_sex = VFIT_SEX_FEMALE;
+    std::vector<ShapeSetting> body_shape;  // of the body that it was made on; empty: the default one
     Mesh mesh;  // positions on that body, indices, uvs (one a vertex, then one a copy)
     // Where panels are sewn together, renderers need a vertex for each: copies, numbered after the vertices.
     std::vector<uint32_t> copies;   // of each, the vertex that it is one of
@@ -64,7 +66,7 @@ struct Garment {
     const GarmentSize& size(const std::string& label) const;
 };
 
-/// Reads a garment file (JSON, format "vfit-garment" version 1 or 2). Fails with VFIT_ERROR_DATA, naming the
+/// Reads a garment file (JSON, format "vfit-garment" version 1 to 3). Fails with VFIT_ERROR_DATA, naming the
 /// field, vertex, triangle or edge; with VFIT_ERROR_VERSION where the version is a later one.
 Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabrics);
 

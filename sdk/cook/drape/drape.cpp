@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "cloth/cloth.h"
+#include "cook/drape/grow_body.h"
+#include "cook/drape/upper_edge.h"
 #include "core/clock.h"
 #include "core/error.h"
 
@@ -17,7 +19,8 @@ constexpr float kClosed_m = 0.002f;  // the widest that a seam should be when it
 // Of a stitch's spring: thread pulls panels along, and stretches them by a little only; at the end it is
 // pulled tight.
 constexpr float kSewing_n_m = 400.0f, kClosing_n_m = 20000.0f;
-constexpr float kStage_m = 0.02f;  // by which the widest seams close in a stage
+constexpr float kStage_m = 0.02f;    // by which the widest seams close in a stage
+constexpr float kLoosely_m = 0.04f;  // that shoulder seams may move while the body grows
 constexpr int kFramesAStage = 3, kFramesToClose = 180;
 
 /// Corners of the triangles in flat cloth, one an index.
@@ -29,12 +32,14 @@ std::vector<Vec2> cut_of(const std::vector<uint32_t>& panel_indices, const std::
 
 class Draper {
 public:
-    Draper(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material,
-           const DrapeBody& body, const DrapeSettings& settings, Jobs& jobs)
+    Draper(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material, const CookBody& body,
+           const Stance& stance, const DrapeSettings& settings, Jobs& jobs)
         : pattern_(pattern),
           mesh_(mesh),
           material_(material),
           body_(body),
+          stance_(stance),
+          sewn_on_(body.leaving(stance, 0.0f)),
           settings_(settings),
           jobs_(jobs),
           cut_(cut_of(mesh.panel_indices, mesh.flat())) {}
@@ -43,7 +48,7 @@ public:
         const Stopwatch watch;
         std::vector<Vec3> places = placement.places;
         look("placed", places);
-        const float widest = close_seams(places);
+        const float widest = close_seams(placement, places);
         look("sewn", places);
         check_closed(places);
         std::vector<Vec3> one(mesh_.sewn_count, Vec3(0.0f));
@@ -56,9 +61,17 @@ public:
             of_sewn.watch = [this](const char* stage, const std::vector<Vec3>& sewn) {
                 look(stage, spread(sewn));
             };
-        const Band band = band_of(placement, one);
-        Draped out =
-            settle({mesh_.sewn_indices, cut_, &material_}, std::move(one), band, body_, of_sewn, jobs_);
+        const WholeCloth whole{mesh_.sewn_indices, cut_, &material_};
+        if (!stance_.is_rest()) {
+            Hold loosely = placement.hold;
+            loosely.slack_m = kLoosely_m;
+            if (loosely.worn_by) loosely.of.clear();
+            one =
+                grow_body_into(whole, std::move(one), body_, stance_, loosely, settings_.thickness_m, jobs_);
+            if (of_sewn.watch) of_sewn.watch("grown", one);
+        }
+        const Hold hold = hold_of(placement, one);
+        Draped out = settle(whole, std::move(one), hold, body_.for_drape(), of_sewn, jobs_);
         if (placement.hangs_on == HangsOn::shoulders &&
             std::count(out.simulated.begin(), out.simulated.end(), 0) == 0)
             fail(VFIT_ERROR_DATA,
@@ -84,8 +97,13 @@ private:
     /// Pulls the two sides of the seams together, without gravity, as slowly as panels can slide around the
     /// body. The widest come first, and wait for nobody: those over the shoulders and around the body hold
     /// the garment up before a skirt is sewn on. Returns what the widest is apart at the end.
-    float close_seams(std::vector<Vec3>& places) {
+    float close_seams(const Placement& placement, std::vector<Vec3>& places) {
+        constexpr float kShoulderSlack_m = 0.03f;
         const std::vector<uint8_t> all(places.size(), 1);
+        const Hold& hold = placement.hold;
+        std::vector<Vec3> targets = places;
+        for (uint32_t v = 0; v < places.size() && !hold.at.empty(); ++v)
+            if (hold.of[mesh_.sewn_of[v]]) targets[v] = hold.at[mesh_.sewn_of[v]];
         const FabricData panels = cook_fabric({places, mesh_.panel_indices, {}, all, 1.0f, cut_}, material_);
         ClothSettings settings;
         settings.gravity = Vec3(0.0f);
@@ -100,11 +118,14 @@ private:
             for (const SewnMesh::Pair& pair : mesh_.pairs)
                 if (last || glm::length(places[pair.a] - places[pair.b]) > limit)
                     data.edges.push_back({pair.a, pair.b, limit, 1.0f / (last ? kClosing_n_m : kSewing_n_m)});
+            for (uint32_t v = 0; v < places.size() && !hold.at.empty(); ++v)
+                if (hold.of[mesh_.sewn_of[v]]) data.limits.push_back({v, 0.5f * limit + kShoulderSlack_m});
             Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
-            const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices, but_fingers(body_));
+            const uint32_t skin =
+                cloth.add_mesh(sewn_on_.size(), body_.topology().indices, but_fingers(body_.for_drape()));
             for (int frame = 0; frame < (last ? kFramesToClose : kFramesAStage); ++frame) {
-                cloth.move_mesh(skin, body_.positions);
-                cloth.step(kFrame_s, places, {}, jobs_);
+                cloth.move_mesh(skin, sewn_on_);
+                cloth.step(kFrame_s, targets, {}, jobs_);
                 if (last && frame % 10 == 9 && widest_seam(cloth.positions()) < kClosed_m) break;
             }
             places = cloth.positions();
@@ -134,23 +155,21 @@ private:
         return widest;
     }
 
-    Band band_of(const Placement& placement, const std::vector<Vec3>& sewn) const {
-        Band band;
-        band.of.assign(sewn.size(), 0);
-        float height = 0.0f, count = 0.0f;
-        for (const EdgeName& edge : placement.band)
-            for (const uint32_t v : mesh_.panels[edge.panel].edge_vertices[edge.edge])
-                band.of[mesh_.sewn_of[mesh_.first_vertex[edge.panel] + v]] = 1;
-        for (uint32_t v = 0; v < sewn.size(); ++v)
-            if (band.of[v]) height += sewn[v].y, count += 1.0f;
-        if (count > 0.0f) band.lowered_m = height / count - placement.band_m;
-        return band;
+    static Hold hold_of(const Placement& placement, const std::vector<Vec3>& sewn) {
+        Hold hold = placement.hold;
+        std::vector<uint32_t> edge;
+        for (uint32_t v = 0; v < hold.of.size() && hold.worn_by; ++v)
+            if (hold.of[v]) edge.push_back(v);
+        if (!edge.empty()) hold.lowered_m = mean_height(sewn, edge) - placement.band_m;
+        return hold;
     }
 
     const Pattern& pattern_;
     const SewnMesh& mesh_;
     const FabricMaterial& material_;
-    const DrapeBody& body_;
+    const CookBody& body_;
+    const Stance& stance_;
+    std::vector<Vec3> sewn_on_;  // the skin while it is sewn
     const DrapeSettings& settings_;
     Jobs& jobs_;
     std::vector<Vec2> cut_;
@@ -159,8 +178,9 @@ private:
 }  // namespace
 
 Draped drape(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material,
-             const DrapeBody& body, const Placement& placement, const DrapeSettings& settings, Jobs& jobs) {
-    return Draper(pattern, mesh, material, body, settings, jobs).run(placement);
+             const CookBody& body, const Stance& stance, const Placement& placement,
+             const DrapeSettings& settings, Jobs& jobs) {
+    return Draper(pattern, mesh, material, body, stance, settings, jobs).run(placement);
 }
 
 }  // namespace vfit

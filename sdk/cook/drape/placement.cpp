@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 #include <optional>
+#include <set>
 
+#include "cook/drape/upper_edge.h"
 #include "core/error.h"
+#include "geometry/borders.h"
 
 namespace vfit {
 
@@ -55,12 +58,14 @@ float lowest(const Pattern& pattern) {
 
 class Hanger {
 public:
-    Hanger(const Pattern& pattern, const SewnMesh& mesh, const BodyOutline& outline)
-        : pattern_(pattern), mesh_(mesh), outline_(outline) {}
+    Hanger(const Pattern& pattern, const BodyOutline& outline) : pattern_(pattern), outline_(outline) {}
 
-    std::optional<float> by_shoulders() const {
+    /// What brings the seams over the shoulders onto the body's; seams: adds those stitches. Where panels
+    /// stand where they are worn, seams far off the shoulders are those of collars and hoods.
+    std::optional<float> by_shoulders(std::vector<Stitch>& seams) const {
+        constexpr float kInner_m = 0.03f, kOuter_m = 0.25f;  // of shoulders, from the middle
+        constexpr float kFarOff_m = 0.08f;
         float sum = 0.0f;
-        int count = 0;
         for (const Stitch& stitch : front_to_back()) {
             const PlacedEdge a = edge(stitch.a), b = edge(stitch.b);
             const Vec3 middle = 0.5f * (a.middle + b.middle);
@@ -69,23 +74,29 @@ public:
                 const Heights h = heights_of(pattern_.panels[name.panel]);
                 return e.middle.y > h.high - 0.2f * (h.high - h.low);
             };
-            constexpr float kInner_m = 0.03f, kOuter_m = 0.25f;  // of shoulders, from the middle
             if (!level(a) || !level(b) || !on_top(stitch.a, a) || !on_top(stitch.b, b)) continue;
             if (std::abs(middle.x) < kInner_m || std::abs(middle.x) > kOuter_m) continue;
             const auto hit =
                 outline_.skin().cast({middle.x, 3.0f, outline_.left_shoulder().z}, {0, -1, 0}, 3.0f);
             if (!hit) continue;
-            sum += 3.0f - hit->distance + kAboveSkin_m - middle.y;
-            ++count;
+            const float raised = 3.0f - hit->distance + kAboveSkin_m - middle.y;
+            if (pattern_.worn_as_placed && std::abs(raised) > kFarOff_m) continue;
+            sum += raised;
+            seams.push_back(stitch);
         }
-        return count > 0 ? std::optional(sum / float(count)) : std::nullopt;
+        return seams.empty() ? std::nullopt : std::optional(sum / float(seams.size()));
     }
 
     /// Where the crotch is at the body's. The highest end of seams between front and back that run down the
     /// inside of both legs.
     std::optional<float> by_crotch() const {
         constexpr float kMiddle_m = 0.1f;
-        float crotch = -INFINITY;
+        constexpr float kHighest = 0.75f;  // of the garment's height: above are the seams of a hood
+        float crotch = -INFINITY, low = INFINITY, high = -INFINITY;
+        for (const Panel& panel : pattern_.panels) {
+            const Heights h = heights_of(panel);
+            low = std::min(low, h.low), high = std::max(high, h.high);
+        }
         bool left = false, right = false;
         for (const Stitch& stitch : front_to_back()) {
             for (const EdgeName& name : {stitch.a, stitch.b}) {
@@ -95,7 +106,9 @@ public:
                 const float top_x = e.middle.x + 0.5f * (e.way.y > 0.0f ? e.way.x : -e.way.x),
                             top_y = e.middle.y + 0.5f * std::abs(e.way.y);
                 const float center_x = 0.5f * (extent_x(panel).x + extent_x(panel).y);
-                if (std::abs(top_x) > kMiddle_m || std::abs(e.middle.x) > std::abs(center_x)) continue;
+                if (top_y > glm::mix(low, high, kHighest) || std::abs(top_x) > kMiddle_m ||
+                    std::abs(e.middle.x) > std::abs(center_x))
+                    continue;
                 (center_x > 0.0f ? left : right) = true;
                 crotch = std::max(crotch, top_y);
             }
@@ -108,48 +121,21 @@ public:
         return outline_.levels().knee + hit->distance - kBelow_m - crotch;
     }
 
-    /// The upper border where it is worn.
-    std::optional<float> by_waist() const {
-        if (upper_border().empty()) return std::nullopt;
+    /// The upper edge, whose mean height is that one, where it is worn.
+    float by_waist(float own_m) const {
+        constexpr float kAboveWaist_m = 0.12f;
+        if (pattern_.worn_as_placed ||
+            (!pattern_.worn_top_m && own_m > outline_.levels().waist + kAboveWaist_m))
+            return 0.0f;
         const float raised = pattern_.worn_top_m.value_or(outline_.levels().waist) -
-                             border_height();  // what is wider than it is worn with a belt
+                             own_m;  // what is wider than it is worn with a belt
         const auto crotch = by_crotch();
         return crotch ? std::min(raised, *crotch) : raised;
-    }
-
-    float border_height() const {
-        float length = 0.0f, height = 0.0f;
-        for (const EdgeName& name : upper_border()) {
-            const float l =
-                edge_length(pattern_.panels[name.panel], pattern_.panels[name.panel].edges[name.edge]);
-            length += l, height += l * edge(name).middle.y;
-        }
-        return height / length;
-    }
-
-    /// Unsewn edges near the top.
-    std::vector<EdgeName> upper_border() const {
-        std::vector<EdgeName> out;
-        float top = -INFINITY;
-        for (uint32_t p = 0; p < pattern_.panels.size(); ++p)
-            top = std::max(top, heights_of(pattern_.panels[p]).high);
-        for (uint32_t p = 0; p < pattern_.panels.size(); ++p)
-            for (uint32_t e = 0; e < pattern_.panels[p].edges.size(); ++e) {
-                const PlacedEdge at = edge({p, e});
-                constexpr float kNearTop_m = 0.05f;
-                if (is_sewn({p, e}) || at.middle.y < top - kNearTop_m) continue;
-                out.push_back({p, e});
-            }
-        return out;
     }
 
 private:
     PlacedEdge edge(const EdgeName& name) const {
         return placed(pattern_.panels[name.panel], pattern_.panels[name.panel].edges[name.edge]);
-    }
-    bool is_sewn(const EdgeName& name) const {
-        return std::any_of(pattern_.stitches.begin(), pattern_.stitches.end(),
-                           [&](const Stitch& s) { return s.a == name || s.b == name; });
     }
     std::vector<Stitch> front_to_back() const {
         std::vector<Stitch> out;
@@ -169,21 +155,110 @@ private:
     }
 
     const Pattern& pattern_;
-    const SewnMesh& mesh_;
     const BodyOutline& outline_;
 };
 
+/// Of the panels, where they are placed: one place a sewn vertex.
+std::vector<Vec3> sewn_places(const Pattern& pattern, const SewnMesh& mesh) {
+    std::vector<Vec3> out(mesh.sewn_count, Vec3(0.0f));
+    std::vector<float> count(mesh.sewn_count, 0.0f);
+    for (size_t p = 0; p < pattern.panels.size(); ++p)
+        for (uint32_t v = 0; v < mesh.panels[p].flat.size(); ++v) {
+            const uint32_t sewn = mesh.sewn_of[mesh.first_vertex[p] + v];
+            out[sewn] += pattern.panels[p].rotation * Vec3(mesh.panels[p].flat[v], 0.0f) +
+                         pattern.panels[p].translation;
+            count[sewn] += 1.0f;
+        }
+    for (uint32_t v = 0; v < mesh.sewn_count; ++v) out[v] /= count[v];
+    return out;
+}
+
+void check_near(const std::vector<Vec3>& places, const BodyOutline& outline) {
+    constexpr float kFar_m = 1.0f;
+    Vec3 middle(0.0f);
+    for (const Vec3& p : places) middle += p / float(places.size());
+    const Vec2 off(middle.x, middle.z - outline.axis_z());
+    if (glm::length(off) > kFar_m)
+        fail(VFIT_ERROR_DATA, "the panels are placed ", std::round(10.0f * glm::length(off)) / 10.0f,
+             " m beside the body: they have to stand around (0, 0)");
+}
+
+/// What no seam joins to that by which the garment is held would fall to the floor.
+void check_held(const Pattern& pattern, const SewnMesh& mesh, const Hold& hold) {
+    std::vector<uint32_t> root(mesh.sewn_count);
+    std::iota(root.begin(), root.end(), 0u);
+    const auto find = [&](uint32_t v) {
+        while (root[v] != v) v = root[v] = root[root[v]];
+        return v;
+    };
+    for (size_t i = 0; i < mesh.sewn_indices.size(); ++i)
+        root[find(mesh.sewn_indices[i])] = find(mesh.sewn_indices[i - i % 3 + (i + 1) % 3]);
+    std::set<uint32_t> held;
+    for (uint32_t v = 0; v < hold.of.size(); ++v)
+        if (hold.of[v]) held.insert(find(v));
+    if (held.empty())
+        fail(VFIT_ERROR_DATA,
+             "the garment hangs on nothing: it has neither a seam over the shoulders nor an edge around the "
+             "body");
+    for (size_t p = 0; p < pattern.panels.size(); ++p)
+        if (!held.count(find(mesh.sewn_of[mesh.first_vertex[p]])))
+            fail(VFIT_ERROR_DATA, "panel ", pattern.panels[p].name,
+                 " hangs on nothing: no seam joins it to what the garment is held by");
+}
+
+/// Seams over the shoulders stay where the pattern has them between neck and arm while they are sewn and
+/// fall: without hands that put it right, a wide neckline slides down an arm.
+void hold_shoulders(const SewnMesh& mesh, const std::vector<Stitch>& seams, const std::vector<Vec3>& places,
+                    const BodyOutline& outline, Hold& hold) {
+    constexpr float kSlack_m = 0.015f;
+    hold.of.assign(mesh.sewn_count, 0);
+    hold.at.assign(mesh.sewn_count, Vec3(0.0f));
+    hold.slack_m = kSlack_m;
+    hold.worn_by = false;
+    for (const Stitch& seam : seams)
+        for (const uint32_t v : mesh.panels[seam.a.panel].edge_vertices[seam.a.edge]) {
+            const uint32_t sewn = mesh.sewn_of[mesh.first_vertex[seam.a.panel] + v];
+            const auto ridge = outline.shoulder_ridge(places[sewn].x);
+            if (!ridge) continue;
+            hold.of[sewn] = 1;
+            hold.at[sewn] = *ridge + Vec3(0.0f, kAboveSkin_m, 0.0f);
+        }
+}
+
 }  // namespace
+
+bool has_legs(const Pattern& pattern, const BodyOutline& outline) {
+    return Hanger(pattern, outline).by_crotch().has_value();
+}
+
+bool has_sleeves(const Pattern& pattern, const BodyOutline& outline) {
+    return std::any_of(pattern.panels.begin(), pattern.panels.end(), [&](const Panel& panel) {
+        Vec3 middle(0.0f);
+        for (const Vec2& p : panel.corners)
+            middle += (panel.rotation * Vec3(p, 0.0f) + panel.translation) / float(panel.corners.size());
+        return std::abs(middle.x) > outline.left_shoulder().x && middle.y > outline.levels().waist;
+    });
+}
 
 Placement place_panels(const Pattern& pattern, const SewnMesh& mesh, const BodyOutline& outline,
                        const MeshQuery& skin) {
     Placement out;
-    const Hanger hanger(pattern, mesh, outline);
-    if (const auto by = hanger.by_shoulders())
+    const Hanger hanger(pattern, outline);
+    const std::vector<Vec3> sewn = sewn_places(pattern, mesh);
+    check_near(sewn, outline);
+    std::vector<Stitch> seams;
+    if (const auto by = hanger.by_shoulders(seams)) {
         out.hangs_on = HangsOn::shoulders, out.raised_m = *by;
-    else if (const auto waist = hanger.by_waist())
-        out.hangs_on = HangsOn::waist, out.raised_m = *waist, out.band = hanger.upper_border(),
-        out.band_m = hanger.border_height() + *waist;
+        hold_shoulders(mesh, seams, sewn, outline, out.hold);
+    } else if (const auto edge = upper_edge(sewn, borders(mesh.sewn_indices), outline.axis_z());
+               !edge.empty()) {
+        const float own_m = mean_height(sewn, edge);
+        out.hangs_on = HangsOn::waist, out.raised_m = hanger.by_waist(own_m),
+        out.band_m = own_m + out.raised_m;
+        out.hold.of.assign(mesh.sewn_count, 0);
+        for (const uint32_t v : edge) out.hold.of[v] = 1;
+    }
+    check_held(pattern, mesh, out.hold);
     if (const auto crotch = hanger.by_crotch())
         out.lifted_m = std::clamp(kAboveFeet_m - lowest(pattern) - out.raised_m, 0.0f,
                                   std::max(0.0f, *crotch - out.raised_m));

@@ -15,9 +15,14 @@ struct Placement {
     HangsOn hangs_on = HangsOn::nothing;
     float raised_m = 0.0f;  // by which all panels were to fit the body
     float lifted_m = 0.0f;  // and by which trousers were beside that, to be sewn above the feet
-    float band_m = 0.0f;    // height at which a garment that hangs on the waist is worn: of the band below
-    std::vector<EdgeName> band;  // of a garment that hangs on the waist: its upper border
+    Hold hold;  // of sewn vertices: at the shoulder seams, or at the upper edge, which is worn at band_m
+    float band_m = 0.0f;
 };
+
+/// Whether a part of it goes about each leg.
+bool has_legs(const Pattern& pattern, const BodyOutline& outline);
+/// Whether a panel is placed about an arm.
+bool has_sleeves(const Pattern& pattern, const BodyOutline& outline);
 
 /// The panels as the pattern places them, raised or lowered so that its shoulder seams lie on the body's
 /// shoulders (else its upper border where it is worn, if its crotch is not above the body's there), then each

@@ -23,22 +23,20 @@ public:
     Settler(const WholeCloth& cloth, const DrapeBody& body, const DrapeSettings& settings, Jobs& jobs)
         : cloth_(cloth), body_(body), settings_(settings), jobs_(jobs) {}
 
-    Draped run(std::vector<Vec3> places, const Band& band) {
-        constexpr float kBelt_m = 0.005f;  // how much the band of trousers or a skirt may still move
+    Draped run(std::vector<Vec3> places, const Hold& hold) {
         Draped out;
-        const bool has_band = std::find(band.of.begin(), band.of.end(), 1) != band.of.end();
+        const bool has_band = hold.any() && hold.worn_by;
         FabricData data = cook(places, std::vector<uint8_t>(places.size(), 1));
-        for (uint32_t v = 0; v < places.size() && has_band; ++v)
-            if (band.of[v]) data.limits.push_back({v, kBelt_m});
-        fall(std::move(data), places, {90, 60, has_band ? band.lowered_m : 0.0f, kFreeSubsteps, false});
+        hold.limit(data);
+        fall(std::move(data), places, hold.targets(places), {90, 60, hold.lowered_m, kFreeSubsteps, false});
         part_layers(places);
         look("fallen", places);
 
         out.simulated.assign(places.size(), 1);
         for (uint32_t v = 0; v < places.size(); ++v)
-            if (has_band ? band.of[v] != 0 : lies_on_shoulder(places[v])) out.simulated[v] = 0;
+            if (has_band ? hold.of[v] != 0 : lies_on_shoulder(places[v])) out.simulated[v] = 0;
         out.report.strain_p99 =
-            fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps, true});
+            fall(cook(places, out.simulated), places, places, {120, 0, 0.0f, kHeldSubsteps, true});
         part_layers(places);
         clear_skin({body_.positions, body_.indices, *body_.skin}, cloth_.indices, places);
         look("at rest", places);
@@ -66,7 +64,7 @@ private:
     };
     /// With layers of its own, unless its triangles are too small for that. Returns the 99th percentile of
     /// strain.
-    float fall(FabricData data, std::vector<Vec3>& places, const Fall& how) {
+    float fall(FabricData data, std::vector<Vec3>& places, std::vector<Vec3> targets, const Fall& how) {
         ClothSettings settings;
         settings.substeps = how.substeps * fineness();
         settings.friction = cloth_.material->friction;
@@ -76,10 +74,13 @@ private:
             keeps_layers_apart(cloth_, settings_.thickness_m) ? settings_.thickness_m : 0.0f;
         settings.damping = 0.95f;
         settings.limits_lengths = false;  // as while it is put on
-        std::vector<Vec3> targets = places;
         Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
         const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices,
                                              how.meets_fingers ? std::vector<uint8_t>() : but_fingers(body_));
+        // What gives way at once where it was stretched would fly.
+        cloth.move_mesh(skin, body_.positions);
+        cloth.come_to_lengths([&](float, std::vector<Vec3>& t, std::vector<Collider>&) { t = targets; },
+                              jobs_);
         for (int frame = 0; frame < how.frames; ++frame) {
             cloth.move_mesh(skin, body_.positions);
             if (frame < how.lowering_frames)
@@ -175,9 +176,22 @@ bool keeps_layers_apart(const WholeCloth& cloth, float thickness_m) {
     return mean_side(cloth) >= kLeastSide * thickness_m;
 }
 
-Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Band& band, const DrapeBody& body,
+bool Hold::any() const { return std::find(of.begin(), of.end(), 1) != of.end(); }
+
+void Hold::limit(FabricData& data) const {
+    if (!any()) return;
+    std::vector<float> inverse_mass = data.inverse_mass;
+    for (uint32_t v = 0; v < of.size(); ++v)
+        if (of[v]) data.limits.push_back({v, slack_m}), inverse_mass[v] = 0.0f;
+    for (const Tether& t : cook_tethers(inverse_mass, data.edges))
+        data.limits.push_back({t.vertex, t.length_m + slack_m, t.anchor});
+}
+
+std::vector<Vec3> Hold::targets(const std::vector<Vec3>& places) const { return at.empty() ? places : at; }
+
+Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Hold& hold, const DrapeBody& body,
               const DrapeSettings& settings, Jobs& jobs) {
-    return Settler(cloth, body, settings, jobs).run(std::move(places), band);
+    return Settler(cloth, body, settings, jobs).run(std::move(places), hold);
 }
 
 }  // namespace vfit

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "body/body_model.h"
+#include "cloth/fabric/fabric.h"
 #include "cloth/fabric/fabric_library.h"
 #include "core/jobs.h"
 #include "geometry/mesh_query.h"
@@ -64,16 +65,25 @@ float mean_side(const WholeCloth& cloth);
 /// tangles small folds.
 bool keeps_layers_apart(const WholeCloth& cloth, float thickness_m);
 
-/// What is held at the waist, and where; flags, one a vertex, empty: nothing is.
-struct Band {
-    std::vector<uint8_t> of;
-    float lowered_m = 0.0f;  // from where it is to where it is worn
+/// What a garment is held by until it lies at rest.
+struct Hold {
+    std::vector<uint8_t> of;  // flags, one a vertex; empty: nothing holds it
+    std::vector<Vec3> at;     // where these are held, one a vertex; empty: where they are
+    float slack_m = 0.005f;   // how far off that they may move
+    float lowered_m = 0.0f;   // from there to where it is worn
+    bool worn_by = true;      // it is worn by these, as by a waistband; else by what lies on the shoulders
+
+    bool any() const;
+    /// Each of these near its target, and all else no further from one than the way along the cloth:
+    /// sub-steps are too few to carry a long skirt, which would hang to below the floor.
+    void limit(FabricData& data) const;
+    std::vector<Vec3> targets(const std::vector<Vec3>& places) const;
 };
 
 /// From those places to rest: first free, held by friction and a belt; then on what it hangs on, which from
 /// now on goes with the skin. Fills the report's figures but for those of a placement, seams and time. watch
 /// is called with one place a vertex.
-Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Band& band, const DrapeBody& body,
+Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Hold& hold, const DrapeBody& body,
               const DrapeSettings& settings, Jobs& jobs);
 
 }  // namespace vfit

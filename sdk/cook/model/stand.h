@@ -13,7 +13,7 @@ struct Standing {
     std::vector<Vec3> places;  // one a vertex
     HangsOn hangs_on = HangsOn::nothing;
     Vec3 moved{0.0f};
-    Band band;
+    Hold hold;
     float deepest_m = 0.0f;     // that it lies in the body
     float inside_share = 0.0f;  // of its vertices that lie in it by more than a centimetre
 };
@@ -25,10 +25,5 @@ Standing stand(const Surface& surface, const BodyOutline& outline, const MeshQue
 
 /// Clear of the skin, where a little of it lies within: each vertex by itself.
 std::vector<Vec3> pushed_out(std::vector<Vec3> places, const MeshQuery& skin, float thickness_m);
-
-/// Clear of a body that is another than the garment was modelled on: as if that grew thick within, and pushed
-/// the cloth ahead of it.
-std::vector<Vec3> grow_body_into(const WholeCloth& cloth, std::vector<Vec3> places, const EvaluatedBody& body,
-                                 const BodyTopology& topology, float thickness_m, Jobs& jobs);
 
 }  // namespace vfit

@@ -12,6 +12,7 @@
 
 #include "cook/mesh/triangulation.h"
 #include "core/error.h"
+#include "geometry/borders.h"
 #include "geometry/mesh_query.h"
 #include "math/finite.h"
 
@@ -408,30 +409,9 @@ private:
              ") are not joined to the others, ", std::round(nearest * 10000.0f) / 10.0f,
              " mm away; join them by common vertices, or give each piece as a garment");
     }
-
-    std::vector<std::vector<uint32_t>> borders(const std::map<Side, uint32_t>& sides) const {
-        std::set<Side> open;
-        for (const auto& [side, at] : sides)
-            if (!sides.count({side.second, side.first})) open.insert(side);
-        std::vector<std::vector<uint32_t>> out;
-        while (!open.empty()) {
-            out.emplace_back();
-            Side side = *open.begin();
-            // Around its far end, over the triangles there, to the next side of the border: so loops that
-            // touch stay two.
-            while (open.erase(side) > 0) {
-                out.back().push_back(side.first);
-                Side next = side;
-                do {
-                    const uint32_t at = sides.at(next), k = (at % 3 + 1) % 3;
-                    const auto& v = triangles_[at / 3].vertex;
-                    next = {v[k], v[(k + 1) % 3]};
-                    if (!sides.count({next.second, next.first})) break;
-                    next = {next.second, next.first};
-                } while (true);
-                side = next;
-            }
-        }
+    std::vector<uint32_t> indices() const {
+        std::vector<uint32_t> out;
+        for (const ModelTriangle& t : triangles_) out.insert(out.end(), t.vertex.begin(), t.vertex.end());
         return out;
     }
 
@@ -444,11 +424,9 @@ private:
 
     /// Two sheets of one surface that face away from each other, closer than any cloth hangs.
     void check_shells() const {
-        const bool closed = borders(sides()).empty();
-        std::vector<uint32_t> indices;
-        for (const ModelTriangle& t : triangles_)
-            indices.insert(indices.end(), t.vertex.begin(), t.vertex.end());
-        const MeshQuery cloth(places_, indices);
+        const std::vector<uint32_t> all_indices = indices();
+        const bool closed = borders(all_indices).empty();
+        const MeshQuery cloth(places_, all_indices);
         double doubled = 0.0, all = 0.0, thickness = 0.0;
         for (size_t t = 0; t < triangles_.size(); ++t) {
             const auto& v = triangles_[t].vertex;
@@ -478,7 +456,7 @@ private:
     }
 
     void close_holes() {
-        const auto loops = borders(sides());
+        const auto loops = borders(indices());
         size_t closed = 0, left = 0;
         float longest = 0.0f;
         std::string lengths;
@@ -572,11 +550,7 @@ private:
             out.corners.push_back(it->second);
         }
         if (!model_.materials.empty()) write_parts(out);
-        const std::map<Side, uint32_t> sides_of = sides();
-        for (auto& loop : borders(sides_of)) {
-            for (uint32_t& v : loop) v = number[v];
-            out.openings.push_back(std::move(loop));
-        }
+        out.openings = borders(out.indices);
         std::stable_sort(out.openings.begin(), out.openings.end(),
                          [&](const auto& a, const auto& b) { return out.length_of(a) > out.length_of(b); });
         out.notes = std::move(notes_);

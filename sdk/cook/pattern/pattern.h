@@ -61,6 +61,7 @@ struct Pattern {
     // Mean height above the soles at which the upper border of a garment that hangs on the waist is worn;
     // none: the waist's.
     std::optional<float> worn_top_m;
+    bool worn_as_placed = false;  // its panels stand where they are worn, on the body that it is made on
     std::vector<Panel> panels;
     std::vector<Stitch> stitches;
     std::vector<PatternMaterial> materials;
