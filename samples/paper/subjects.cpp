@@ -33,12 +33,15 @@ constexpr Printed kTable3[] = {
 std::vector<Subject> subjects(const std::shared_ptr<const BodyModel>& body) {
     std::vector<Subject> out;
     for (const vfit_sex sex : {VFIT_SEX_FEMALE, VFIT_SEX_MALE}) {
-        const BodyWithMeasures solver(body, sex,
-                                      {{"height", 0.5, 0.4},
-                                       {"measure-shoulder-dist", 0.0, 0.5},
-                                       {"measure-upperleg-height", 0.0, 0.3},
-                                       {"measure-lowerleg-height", 0.0, 0.3}},
-                                      {"stature_m", "shoulder_breadth_m"});
+        const auto measure = [&](const std::vector<float>& shape) {
+            return measures_of(body, sex, shape, kNavelShare);
+        };
+        BodyWithMeasures solver(body, sex,
+                                {{"height", 0.5, 0.4},
+                                 {"measure-shoulder-dist", 0.0, 0.5},
+                                 {"measure-upperleg-height", 0.0, 0.3},
+                                 {"measure-lowerleg-height", 0.0, 0.3}},
+                                {"stature_m", "shoulder_breadth_m"}, measure);
         for (const Printed& p : kTable3) {
             if (p.sex != sex) continue;
             std::vector<float> shape = body->default_shape(sex);
@@ -46,7 +49,7 @@ std::vector<Subject> subjects(const std::shared_ptr<const BodyModel>& body) {
             Subject subject{p.number, sex, p.shoulder, p.height, "", {}, {}};
             subject.measures = solver.solve({{"stature_m", 0.01 * p.height.real, 0.001},
                                              {"shoulder_breadth_m", 0.01 * p.shoulder.real, 0.002}},
-                                            kNavelShare, shape);
+                                            measure, shape);
             std::ostringstream uri;
             uri.imbue(std::locale::classic());
             uri.precision(7);

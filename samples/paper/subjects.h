@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "body/body_model.h"
-#include "population/body_with_measures.h"
+#include "population/body_measures.h"
 
 namespace vfit::tools {
 

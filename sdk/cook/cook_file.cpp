@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "avatar/gltf_document.h"
+#include "cook/body/drawn_for.h"
 #include "cook/cook_model.h"
 #include "cook/draft/draft.h"
-#include "cook/drawn_for.h"
 #include "cook/model/gltf.h"
 #include "cook/model/obj.h"
 #include "cook/pattern/garmentcode.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cloth/garment/cut.h"
-#include "cook/cook_body.h"
+#include "cook/body/cook_body.h"
 #include "cook/drape/grow_body.h"
 #include "cook/model/stand.h"
 #include "cook/model/surface.h"
@@ -18,18 +18,18 @@ namespace {
 
 /// Sleeves: what is nearer to an arm than to the trunk, in patches that reach along the upper arm; others
 /// only hang beside a hand.
-std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& places, const DrapeBody& body) {
+std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& places, const CookBody& body) {
     constexpr float kAlong_m = 0.08f;  // from the shoulder joint
     const size_t count = places.size();
     std::vector<uint8_t> near_arm(count, 0), seed(count, 0);
     for (size_t v = 0; v < count; ++v) {
-        const MeshQuery::Closest near = body.skin->closest(places[v]);
-        const BodyPart part = body.parts[body.indices[3 * near.triangle]];
+        const MeshQuery::Closest skin = body.skin().closest(places[v]);
+        const BodyPart part = body.parts()[body.indices()[3 * skin.triangle]];
         near_arm[v] = is_arm(part);
-        const Vec3 joint(places[v].x < 0.0f ? -body.left_shoulder.x : body.left_shoulder.x,
-                         body.left_shoulder.y, body.left_shoulder.z);
+        Vec3 joint = body.outline().left_shoulder();
+        if (places[v].x < 0.0f) joint.x = -joint.x;
         seed[v] = (part == BodyPart::kLeftUpperArm || part == BodyPart::kRightUpperArm) &&
-                  glm::length(near.point - joint) > kAlong_m;
+                  glm::length(skin.point - joint) > kAlong_m;
     }
     std::vector<std::vector<uint32_t>> beside(count);
     for (size_t i = 0; i < surface.indices.size(); ++i)
@@ -83,7 +83,6 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     const FabricMaterial material = fabrics.get(options.cook.fabric);
     const CookBody made_on(body_model, options.cook.sex, options.cook.shape);
     const MeshQuery& skin = made_on.skin();
-    const DrapeBody& body = made_on.for_drape();
     const float thickness = options.cook.drape.thickness_m;
     const Standing standing = stand(surface, made_on.outline(), skin, thickness);
 
@@ -108,15 +107,15 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     if (options.cook.drape.watch) options.cook.drape.watch("placed", places);
     if (standing.inside_share > kOtherBody)
         places = grow_body_into(cloth, std::move(places), made_on, kThinnest, {}, thickness, jobs);
-    const Draped draped = settle(cloth, pushed_out(std::move(places), skin, thickness), standing.hold, body,
-                                 options.cook.drape, jobs);
+    const Draped draped = settle(cloth, pushed_out(std::move(places), skin, thickness), standing.hold,
+                                 made_on, options.cook.drape, jobs);
     out.report = draped.report;
     out.report.hangs_on = standing.hangs_on;
     out.report.raised_m = standing.moved.y;
     g.mesh.positions = draped.positions;
     g.simulated = draped.simulated;
     g.backstop.assign(g.vertex_count(), 0);
-    g.on_arm = sleeves(surface, draped.positions, body);
+    g.on_arm = sleeves(surface, draped.positions, made_on);
     g.parts = std::move(surface.parts);
     if (!options.size_label.empty()) g.sizes.push_back({options.size_label, {}, {}});
     turn_outside_out(g, skin);

@@ -5,7 +5,7 @@
 #include <exception>
 #include <optional>
 
-#include "cook/cook_body.h"
+#include "cook/body/cook_body.h"
 #include "cook/worn.h"
 #include "core/error.h"
 
@@ -41,16 +41,16 @@ struct DrawnOrder {
 };
 
 /// Sleeves: of panels that lie against an arm for the most part, all vertices that no other panel has.
-std::vector<uint8_t> on_arms(const SewnMesh& mesh, const std::vector<Vec3>& places, const DrapeBody& body) {
+std::vector<uint8_t> on_arms(const SewnMesh& mesh, const std::vector<Vec3>& places, const CookBody& body) {
     std::vector<uint8_t> out(mesh.sewn_count, 0);
     std::vector<uint32_t> elsewhere(mesh.sewn_count, 0);
     for (size_t p = 0; p < mesh.panels.size(); ++p) {
         size_t on = 0;
         const size_t count = mesh.panels[p].flat.size();
         for (uint32_t v = 0; v < count; ++v) {
-            const MeshQuery::Closest near =
-                body.skin->closest(places[mesh.sewn_of[mesh.first_vertex[p] + v]]);
-            on += is_arm(body.parts[body.indices[3 * near.triangle]]);
+            const MeshQuery::Closest skin =
+                body.skin().closest(places[mesh.sewn_of[mesh.first_vertex[p] + v]]);
+            on += is_arm(body.parts()[body.indices()[3 * skin.triangle]]);
         }
         const bool sleeve = 2 * on > count;
         for (uint32_t v = 0; v < count; ++v) {
@@ -111,7 +111,7 @@ void add_drape_notes(const DrapeReport& report, std::vector<std::string>& notes)
     if (report.skin_crossings > 0)
         notes.push_back(text("the skin stands out of it in ", report.skin_crossings, " places"));
     if (report.self_crossings > 0)
-        notes.push_back(text("it goes through itself in ", report.self_crossings, " places"));
+        notes.push_back(text("it crosses itself in ", report.self_crossings, " places"));
 }
 
 namespace {
@@ -145,7 +145,7 @@ CookedGarment cook_once(const CookBody& body, const std::vector<PatternSize>& si
     g.mesh.uvs = uvs_of(g.flat);
     g.simulated = draped.simulated;
     g.backstop.assign(mesh.sewn_count, 0);
-    g.on_arm = on_arms(mesh, draped.positions, body.for_drape());
+    g.on_arm = on_arms(mesh, draped.positions, body);
     g.parts = parts_of(pattern, mesh);
     for (const PatternSize& size : sizes) {
         if (size.label.empty()) continue;
@@ -160,7 +160,6 @@ CookedGarment cook_once(const CookBody& body, const std::vector<PatternSize>& si
     turn_outside_out(g, body.skin());
     validate_garment(g, fabrics);
     out.round = goes_round(g.mesh.positions, g.mesh.indices, body);
-    check_worn(out.round, options.kind_told ? options.kind : "");
     add_drape_notes(out.report, out.notes);
     return out;
 }
@@ -204,6 +203,7 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
     // Whether a fold gets caught when cloth falls from where it was sewn is chance: with triangles of a
     // little another size it falls anew.
     for (const float triangles : {0.95f, 1.05f, 0.9f}) cook(of_best, triangles);
+    check_worn(best->round, options.kind_told ? options.kind : "");
     best->report.seconds = seconds;
     return std::move(*best);
 }

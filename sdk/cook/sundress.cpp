@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cook/body_outline.h"
+#include "cook/body/body_outline.h"
 #include "core/error.h"
 
 namespace vfit {

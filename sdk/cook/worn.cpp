@@ -52,7 +52,12 @@ std::vector<std::string> goes_round(std::span<const Vec3> places, std::span<cons
     const TailorLevels& levels = body.outline().levels();
     const Vec3 up(0, 1, 0);
     const auto add = [&](const char* name, const Vec3& centre, const Vec3& along, float reach_m) {
-        if (share_met(places, indices, centre, along, reach_m) >= kMet) out.push_back(name);
+        // A waistband's edge lies at the waist, or a little below.
+        for (const float off_m : {0.0f, -0.03f})
+            if (share_met(places, indices, centre + off_m * along, along, reach_m) >= kMet) {
+                out.push_back(name);
+                return;
+            }
     };
     constexpr float kFar_m = 2.0f, kNeck_m = 0.25f;
     add("neck", body.joint(VFIT_BONE_NECK), up, kNeck_m);

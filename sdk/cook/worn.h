@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cook/cook_body.h"
+#include "cook/body/cook_body.h"
 
 namespace vfit {
 

@@ -1277,6 +1277,44 @@ class Contract(unittest.TestCase):
                 run("fit", VIRTUAL, "--garment", folder / "design.json", "--out", folder), "design.json"
             )
 
+    def test_patterns_of_others_are_made_on_the_body_that_they_were_drawn_for(self):
+        garments = pathlib.Path(SHARED) / "data/field/garments"
+        if not garments.exists():
+            self.skipTest("no shared/data/field/garments")
+        measures = garments / "rand_body_measurements.yaml"
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            for name, hangs_on, round_ in (
+                ("rand_D5QKH709Q5", "shoulders", "hips"),
+                ("rand_J1B2HTPIMP", "waist", "hips"),
+                ("rand_MZL130QZO6", "shoulders", "chest"),
+            ):
+                made = folder / f"{name}.json"
+                spec = garments / f"{name}_specification.json"
+                cooked = document(self, "cook", spec, "--measures", measures, "--out", made, "--json")
+                self.assertEqual(cooked["hangs_on"], hangs_on)
+                self.assertIn(round_, cooked["goes_round"])
+                self.assertEqual((cooked["skin_crossings"], cooked["self_crossings"]), (0, 0))
+                self.assertEqual(json.loads(made.read_text())["version"], 3)
+                worn = run("wear", made, "--draft", "--out", folder / "worn")
+                self.assertEqual(worn.returncode, 0, worn.stderr)
+            for name, reason in (
+                ("made_far", "5 m beside the body"),
+                ("made_nostitch", "hangs on nothing"),
+            ):
+                spec = garments / f"{name}_specification.json"
+                self.check_failure(run("cook", spec, "--out", folder / "x.json"), reason)
+            skirt = garments / "rand_J1B2HTPIMP_specification.json"
+            self.check_failure(
+                run("cook", skirt, "--measures", measures, "--kind", "shirt", "--out", folder / "x.json"),
+                "does not go round the chest",
+            )
+            bad = folder / "bad.yaml"
+            bad.write_text("body:\n  bust: wide\n")
+            self.check_failure(
+                run("cook", skirt, "--measures", bad, "--out", folder / "x.json"), "bad.yaml", "line 2"
+            )
+
     def test_a_mesh_is_cooked_and_worn(self):
         rows, columns = 16, 40
         lines = ["mtllib skirt.mtl", "usemtl wool"]

@@ -360,6 +360,13 @@ TEST_F(DressingTest, BadGarmentsAndChartsSayWhatIsWrong) {
         EXPECT_EQ(vfit_size_chart_load(context, text.data(), text.size(), &chart), VFIT_ERROR_DATA) << text;
         EXPECT_FALSE(contract::last_error().empty());
     }
+    const std::string winged = R"({"format": "vfit-garment", "version": 3, "name": "x", "kind": "dress",
+        "fabric": "cotton_woven", "body_sex": "f", "body_shape": {"wing-span": 1}, "sizes": [],
+        "positions": [0,1,0, 1,1,0, 0,0,0], "uvs": [0,0, 1,0, 0,1], "indices": [0,2,1],
+        "flat": [0,1, 1,1, 0,0], "copies": [], "corners": [0,2,1], "on_arm": [0,0,0], "parts": [],
+        "simulated": [0,0,1], "backstop": [0,0,0]})";
+    EXPECT_EQ(vfit_garment_load(context, winged.data(), winged.size(), &garment), VFIT_ERROR_DATA);
+    EXPECT_NE(contract::last_error().find("wing-span"), std::string::npos) << contract::last_error();
     EXPECT_EQ(vfit_garment_load(context, nullptr, 5, &garment), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_garment_load(context, "x", uint64_t(1) << 60, &garment), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_garment_open(context, "../../etc/passwd", &garment), VFIT_ERROR_ARGUMENT);

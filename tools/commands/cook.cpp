@@ -11,7 +11,6 @@
 #include "commands/commands.h"
 #include "cook/cook_file.h"
 #include "cook/garment_writer.h"
-#include "cook/worn.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/platform.h"
@@ -102,15 +101,21 @@ private:
     std::unique_ptr<Jobs> jobs_;
 };
 
+/// "chest, waist, hips".
+std::string listed(const Json& words) {
+    std::string out;
+    for (const Json& word : words) out += (out.empty() ? "" : ", ") + word.get<std::string>();
+    return out;
+}
+
 std::string line_of(const Json& r) {
     std::string line = text(r["garment"].get<std::string>(), ": ", r["vertices"].get<int>(), " vertices, ",
                             r["simulated"].get<int>(), " of them simulated");
     if (r.contains("seconds"))
-        line +=
-            text(", worn from the ", r["hangs_on"].get<std::string>(), ", goes round ",
-                 listed(r["goes_round"].get<std::vector<std::string>>()), ", ",
-                 r["skin_crossings"].get<int>(), " crossings with the skin, ", r["self_crossings"].get<int>(),
-                 " with itself, in ", int(r["seconds"].get<double>() * 10.0) / 10.0, " s");
+        line += text(", worn from the ", r["hangs_on"].get<std::string>(), ", goes round ",
+                     listed(r["goes_round"]), ", ", r["skin_crossings"].get<int>(),
+                     " crossings with the skin, ", r["self_crossings"].get<int>(), " with itself, in ",
+                     int(r["seconds"].get<double>() * 10.0) / 10.0, " s");
     line += ", in " + r["file"].get<std::string>();
     if (r.contains("warnings"))
         for (const Json& warning : r["warnings"]) line += "\n  " + warning.get<std::string>();

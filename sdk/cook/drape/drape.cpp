@@ -71,7 +71,7 @@ public:
             if (of_sewn.watch) of_sewn.watch("grown", one);
         }
         const Hold hold = hold_of(placement, one);
-        Draped out = settle(whole, std::move(one), hold, body_.for_drape(), of_sewn, jobs_);
+        Draped out = settle(whole, std::move(one), hold, body_, of_sewn, jobs_);
         if (placement.hangs_on == HangsOn::shoulders &&
             std::count(out.simulated.begin(), out.simulated.end(), 0) == 0)
             fail(VFIT_ERROR_DATA,
@@ -121,8 +121,7 @@ private:
             for (uint32_t v = 0; v < places.size() && !hold.at.empty(); ++v)
                 if (hold.of[mesh_.sewn_of[v]]) data.limits.push_back({v, 0.5f * limit + kShoulderSlack_m});
             Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
-            const uint32_t skin =
-                cloth.add_mesh(sewn_on_.size(), body_.topology().indices, but_fingers(body_.for_drape()));
+            const uint32_t skin = cloth.add_mesh(sewn_on_.size(), body_.indices(), but_fingers(body_));
             for (int frame = 0; frame < (last ? kFramesToClose : kFramesAStage); ++frame) {
                 cloth.move_mesh(skin, sewn_on_);
                 cloth.step(kFrame_s, targets, {}, jobs_);

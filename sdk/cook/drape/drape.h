@@ -1,7 +1,7 @@
 // Sews placed panels together on a body and lets the garment fall to rest.
 #pragma once
 
-#include "cook/cook_body.h"
+#include "cook/body/cook_body.h"
 #include "cook/drape/placement.h"
 #include "cook/drape/settle.h"
 #include "cook/sew/sewn.h"

@@ -22,7 +22,7 @@ std::vector<Vec3> grow_body_into(const WholeCloth& cloth, std::vector<Vec3> plac
     hold.limit(data);
     const std::vector<Vec3> targets = hold.targets(places);
     Cloth simulated(std::make_shared<const Fabric>(std::move(data)), settings, places);
-    const uint32_t skin = simulated.add_mesh(body.evaluated().positions.size(), body.topology().indices);
+    const uint32_t skin = simulated.add_mesh(body.positions().size(), body.indices());
     for (int frame = 0; frame <= kFrames; ++frame) {
         simulated.move_mesh(skin, body.leaving(from, float(frame) / float(kFrames)));
         simulated.step(kFrame_s, targets, {}, jobs);

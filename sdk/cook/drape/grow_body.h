@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cook/cook_body.h"
+#include "cook/body/cook_body.h"
 #include "cook/drape/settle.h"
 
 namespace vfit {

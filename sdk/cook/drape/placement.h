@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cook/body_outline.h"
+#include "cook/body/body_outline.h"
 #include "cook/drape/settle.h"
 #include "cook/pattern/pattern.h"
 #include "cook/sew/sewn.h"

@@ -20,7 +20,7 @@ constexpr uint32_t kFreeSubsteps = 16,
 
 class Settler {
 public:
-    Settler(const WholeCloth& cloth, const DrapeBody& body, const DrapeSettings& settings, Jobs& jobs)
+    Settler(const WholeCloth& cloth, const CookBody& body, const DrapeSettings& settings, Jobs& jobs)
         : cloth_(cloth), body_(body), settings_(settings), jobs_(jobs) {}
 
     Draped run(std::vector<Vec3> places, const Hold& hold) {
@@ -38,12 +38,12 @@ public:
         out.report.strain_p99 =
             fall(cook(places, out.simulated), places, places, {120, 0, 0.0f, kHeldSubsteps, true});
         part_layers(places);
-        clear_skin({body_.positions, body_.indices, *body_.skin}, cloth_.indices, places);
+        clear_skin({body_.positions(), body_.indices(), body_.skin()}, cloth_.indices, places);
         look("at rest", places);
         out.positions = std::move(places);
         out.report.self_crossings = uint32_t(crossed_triangles(out.positions, cloth_.indices).size());
         out.report.skin_crossings = uint32_t(
-            crossed_triangles({out.positions, cloth_.indices}, {body_.positions, body_.indices}).size());
+            crossed_triangles({out.positions, cloth_.indices}, {body_.positions(), body_.indices()}).size());
         return out;
     }
 
@@ -75,14 +75,14 @@ private:
         settings.damping = 0.95f;
         settings.limits_lengths = false;  // as while it is put on
         Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
-        const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices,
+        const uint32_t skin = cloth.add_mesh(body_.positions().size(), body_.indices(),
                                              how.meets_fingers ? std::vector<uint8_t>() : but_fingers(body_));
         // What gives way at once where it was stretched would fly.
-        cloth.move_mesh(skin, body_.positions);
+        cloth.move_mesh(skin, body_.positions());
         cloth.come_to_lengths([&](float, std::vector<Vec3>& t, std::vector<Collider>&) { t = targets; },
                               jobs_);
         for (int frame = 0; frame < how.frames; ++frame) {
-            cloth.move_mesh(skin, body_.positions);
+            cloth.move_mesh(skin, body_.positions());
             if (frame < how.lowering_frames)
                 for (Vec3& target : targets) target.y -= how.lowered_m / float(how.lowering_frames);
             cloth.step(kSettleFrame_s, targets, {}, jobs_);
@@ -107,7 +107,7 @@ private:
         compute_normals(places, cloth_.indices, normals);
         double outwards = 0.0;  // seams may have left it inside out
         for (size_t v = 0; v < places.size(); v += 8)
-            outwards += double(glm::dot(normals[v], places[v] - body_.skin->closest(places[v]).point));
+            outwards += double(glm::dot(normals[v], places[v] - body_.skin().closest(places[v]).point));
         const float step_m = outwards < 0.0 ? kStep_m : -kStep_m;
         const size_t first = crossed_triangles(places, cloth_.indices).size();
         size_t left = first;
@@ -125,29 +125,29 @@ private:
 
     bool lies_on_shoulder(const Vec3& place) const {
         constexpr float kTouches_m = 0.006f, kUpwards = 0.75f, kNeck_m = 0.03f, kBelowJoint_m = 0.02f;
-        const Vec3 joint = body_.left_shoulder;
+        const Vec3 joint = body_.outline().left_shoulder();
         if (std::abs(place.x) < kNeck_m || std::abs(place.x) > joint.x || place.y < joint.y - kBelowJoint_m)
             return false;
-        const MeshQuery::Closest near = body_.skin->closest(place);
-        return near.distance < settings_.thickness_m + kTouches_m && near.normal.y > kUpwards;
+        const MeshQuery::Closest skin = body_.skin().closest(place);
+        return skin.distance < settings_.thickness_m + kTouches_m && skin.normal.y > kUpwards;
     }
 
     const WholeCloth& cloth_;
-    const DrapeBody& body_;
+    const CookBody& body_;
     const DrapeSettings& settings_;
     Jobs& jobs_;
 };
 
 }  // namespace
 
-std::vector<uint8_t> but_fingers(const DrapeBody& body) {
+std::vector<uint8_t> but_fingers(const CookBody& body) {
     constexpr float kWrist_m = 0.03f;  // so far a hand is no wider than a cuff
-    std::vector<uint8_t> counts(body.positions.size(), 1);
+    std::vector<uint8_t> counts(body.positions().size(), 1);
     const auto middle_of = [&](BodyPart part) {
         Vec3 sum(0.0f);
         float count = 0.0f;
         for (size_t v = 0; v < counts.size(); ++v)
-            if (body.parts[v] == part) sum += body.positions[v], count += 1.0f;
+            if (body.parts()[v] == part) sum += body.positions()[v], count += 1.0f;
         return sum / std::max(count, 1.0f);
     };
     for (const auto& [forearm, hand] : {std::pair(BodyPart::kLeftForearm, BodyPart::kLeftHand),
@@ -155,9 +155,10 @@ std::vector<uint8_t> but_fingers(const DrapeBody& body) {
         const Vec3 along = glm::normalize(middle_of(hand) - middle_of(forearm));
         float wrist = INFINITY;
         for (size_t v = 0; v < counts.size(); ++v)
-            if (body.parts[v] == hand) wrist = std::min(wrist, glm::dot(body.positions[v], along));
+            if (body.parts()[v] == hand) wrist = std::min(wrist, glm::dot(body.positions()[v], along));
         for (size_t v = 0; v < counts.size(); ++v)
-            if (body.parts[v] == hand && glm::dot(body.positions[v], along) > wrist + kWrist_m) counts[v] = 0;
+            if (body.parts()[v] == hand && glm::dot(body.positions()[v], along) > wrist + kWrist_m)
+                counts[v] = 0;
     }
     return counts;
 }
@@ -189,7 +190,7 @@ void Hold::limit(FabricData& data) const {
 
 std::vector<Vec3> Hold::targets(const std::vector<Vec3>& places) const { return at.empty() ? places : at; }
 
-Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Hold& hold, const DrapeBody& body,
+Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Hold& hold, const CookBody& body,
               const DrapeSettings& settings, Jobs& jobs) {
     return Settler(cloth, body, settings, jobs).run(std::move(places), hold);
 }

@@ -5,11 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "body/body_model.h"
 #include "cloth/fabric/fabric.h"
 #include "cloth/fabric/fabric_library.h"
+#include "cook/body/cook_body.h"
 #include "core/jobs.h"
-#include "geometry/mesh_query.h"
 #include "math/types.h"
 
 namespace vfit {
@@ -17,17 +16,9 @@ namespace vfit {
 /// What a garment hangs on, by which it is moved up or down to a body of another height.
 enum class HangsOn { shoulders, waist, nothing };
 
-struct DrapeBody {
-    std::vector<Vec3> positions;
-    std::vector<uint32_t> indices;
-    const MeshQuery* skin;            // of these
-    Vec3 left_shoulder;               // joint
-    std::span<const BodyPart> parts;  // one a vertex, or more
-};
-
 /// Flags, one a vertex, of what sleeves meet while they are sewn. They are sewn shut before the cap draws
 /// them up the arm; fingers in their way would be sewn in.
-std::vector<uint8_t> but_fingers(const DrapeBody& body);
+std::vector<uint8_t> but_fingers(const CookBody& body);
 
 struct DrapeReport {
     HangsOn hangs_on = HangsOn::nothing;
@@ -83,7 +74,7 @@ struct Hold {
 /// From those places to rest: first free, held by friction and a belt; then on what it hangs on, which from
 /// now on goes with the skin. Fills the report's figures but for those of a placement, seams and time. watch
 /// is called with one place a vertex.
-Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Hold& hold, const DrapeBody& body,
+Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Hold& hold, const CookBody& body,
               const DrapeSettings& settings, Jobs& jobs);
 
 }  // namespace vfit

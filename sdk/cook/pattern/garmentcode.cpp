@@ -188,11 +188,15 @@ private:
     /// What is no garment's size in the unit that the file tells is so mostly because of the unit.
     void check_unit() const {
         constexpr float kSmallest_m = 0.1f, kLargest_m = 4.0f;
-        float largest = 0.0f;
-        for (const Panel& panel : pattern_.panels)
+        std::vector<float> sizes;
+        for (const Panel& panel : pattern_.panels) {
+            sizes.push_back(0.0f);
             for (const Vec2& a : panel.corners)
-                largest = std::max(largest, glm::length(a - panel.corners[0]));
-        if (largest >= kSmallest_m && largest <= kLargest_m) return;
+                sizes.back() = std::max(sizes.back(), glm::length(a - panel.corners[0]));
+        }
+        std::sort(sizes.begin(), sizes.end());
+        const float largest = sizes.back(), usual = sizes[sizes.size() / 2];  // a single ruffle may be long
+        if (largest >= kSmallest_m && usual <= kLargest_m) return;
         const float raw = largest * units_in_meter_;
         const char* fits =
             raw >= kSmallest_m && raw <= kLargest_m                       ? "metres: units_in_meter 1"

@@ -11,7 +11,7 @@ namespace vfit {
 
 namespace {
 
-constexpr float kLargestPanel_m = 5.0f, kSmallestArea_m2 = 1e-4f, kShortestEdge_m = 1e-4f;
+constexpr float kLargestPanel_m = 8.0f, kSmallestArea_m2 = 1e-4f, kShortestEdge_m = 1e-4f;
 constexpr float kMostGather = 4.0f;  // longer over shorter of two edges that are sewn together
 constexpr uint32_t kFineSteps = 64;  // of a curve: its length to a thousandth
 

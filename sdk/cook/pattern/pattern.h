@@ -76,7 +76,7 @@ float edge_length(const Panel& panel, const PatternEdge& edge);
 std::vector<Vec2> sample_edge(const Panel& panel, const PatternEdge& edge, uint32_t count);
 
 /// Finds what cannot be cut or sewn; VFIT_ERROR_DATA names the panel, edge or stitch: edges that make no
-/// closed line, that cross each other, a panel of no area or larger than 5 m, numbers that are not finite,
+/// closed line, that cross each other, a panel of no area or larger than 8 m, numbers that are not finite,
 /// stitches of edges that are not there or of one edge with itself, an edge that is sewn twice, lengths that
 /// differ by more than fourfold.
 void check_pattern(const Pattern& pattern);

@@ -49,6 +49,19 @@ TEST(Garment, IsReadWhole) {
     EXPECT_EQ(g.sizes[1].nominal.size(), 2u);
 }
 
+TEST(Garment, MayBeMadeOnABodyOfItsOwn) {
+    EXPECT_TRUE(parse(kGarment).body_shape.empty());
+    const Garment g =
+        parse(with("\"body_sex\": \"f\"", R"("body_sex": "f", "body_shape": {"weight": 0.75})"));
+    ASSERT_EQ(g.body_shape.size(), 1u);
+    EXPECT_EQ(g.body_shape[0].key, "weight");
+    EXPECT_EQ(g.body_shape[0].value, 0.75f);
+    EXPECT_EQ(refusal("\"body_sex\": \"f\"", R"("body_sex": "f", "body_shape": [0.75])"),
+              "-11 garment: \"body_shape\" is not an object");
+    EXPECT_EQ(refusal("\"body_sex\": \"f\"", R"("body_sex": "f", "body_shape": {"weight": "much"})"),
+              "-11 garment: \"body_shape\": weight is not a number");
+}
+
 TEST(Garment, RefusesEndlessNestingAtOnce) {
     const char* const message = "-11 garment: nested deeper than 32 levels";
     EXPECT_EQ(error_of([] { parse(std::string(1u << 22, '[')); }), message);
@@ -89,7 +102,7 @@ TEST(Garment, RefusesBadFieldsByName) {
     EXPECT_EQ(refusal("\"hip_girth_m\"", "\"tail_girth_m\""),
               "-11 garment: size L names the unknown measure tail_girth_m");
     EXPECT_EQ(refusal("0.8}", "-0.8}"), "-11 garment: chest_girth_m of size S is -0.8 m");
-    EXPECT_EQ(refusal("\"version\": 1", "\"version\": 3"), "-8 garment: version 3 is not known, 1 and 2 are");
+    EXPECT_EQ(refusal("\"version\": 1", "\"version\": 4"), "-8 garment: version 4 is not known, 1 to 3 are");
     EXPECT_EQ(refusal("vfit-garment", "garment"), "-11 garment: format is not \"vfit-garment\"");
 }
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "cook/body_outline.h"
+#include "cook/body/body_outline.h"
 #include "cook/garment_writer.h"
 #include "cook/sundress.h"
 #include "core/error.h"

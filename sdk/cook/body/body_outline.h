@@ -30,7 +30,7 @@ struct TailorLevels {
     float shoulder, bust, waist, hip, knee, ankle;
 };
 
-/// The highest place where the mesh lies flat, seen from `above` over so much to the back and to the front.
+/// The highest place where the mesh lies flat, seen from above over depth_m to the back and to the front.
 std::optional<Vec3> ridge(const MeshQuery& mesh, const Vec3& above, float depth_m);
 
 class BodyOutline {

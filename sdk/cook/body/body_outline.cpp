@@ -1,4 +1,4 @@
-#include "cook/body_outline.h"
+#include "cook/body/body_outline.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cook/drawn_for.h"
+#include "cook/body/drawn_for.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,7 +9,7 @@
 #include "anthropometry/measure_keys.h"
 #include "anthropometry/profile.h"
 #include "avatar/avatar_measures.h"
-#include "cook/body_outline.h"
+#include "cook/body/body_outline.h"
 #include "core/error.h"
 
 namespace vfit {
@@ -187,14 +187,11 @@ BodyDrawnFor body_drawn_for(const BodyModel& model, const DrawnFor& drawn_for) {
     } else {
         found = nearest_body(model, drawn_for, drawn_for.sex);
     }
-    if (getenv("DBG"))
-        for (const WantedMeasure& w : drawn_for.wanted)
-            if (found.measures.count(w.key))
-                printf("   %-24s %.3f %.3f\n", w.key.c_str(), w.value_m, found.measures.at(w.key));
-    constexpr double kMissed_m = 0.02;
+    constexpr double kMissed_m = 0.02;  // levels are soft anyway
     for (const WantedMeasure& w : drawn_for.wanted)
-        if (const auto it = found.measures.find(w.key);
-            it != found.measures.end() && std::abs(it->second - w.value_m) > kMissed_m)
+        if (const auto it = found.measures.find(w.key); it != found.measures.end() &&
+                                                        !w.key.ends_with("_level_m") &&
+                                                        std::abs(it->second - w.value_m) > kMissed_m)
             out.notes.push_back(
                 text(w.key, " of the body that it is made on is ", std::round(1000.0 * it->second) / 10.0,
                      " cm, of the one that it was drawn for ", std::round(1000.0 * w.value_m) / 10.0));

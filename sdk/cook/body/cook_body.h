@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "body/shape_setting.h"
-#include "cook/body_outline.h"
-#include "cook/drape/settle.h"
+#include "cook/body/body_outline.h"
 #include "geometry/mesh_query.h"
 
 namespace vfit {
@@ -28,12 +27,12 @@ public:
 
     vfit_sex sex() const { return sex_; }
     const std::vector<ShapeSetting>& settings() const { return settings_; }
-    const EvaluatedBody& evaluated() const { return evaluated_; }
-    const BodyTopology& topology() const { return topology_; }
+    const std::vector<Vec3>& positions() const { return evaluated_.positions; }
+    const std::vector<uint32_t>& indices() const { return topology_.indices; }
+    const std::vector<BodyPart>& parts() const { return topology_.parts; }  // one a vertex, or more
     const MeshQuery& skin() const { return skin_; }
     const BodyOutline& outline() const { return outline_; }
     Vec3 joint(int humanoid_bone) const;
-    const DrapeBody& for_drape() const { return drape_; }
     /// Its vertices on its way from a stance (0) to its own thickness and posture (1).
     std::vector<Vec3> leaving(const Stance& stance, float share) const;
 
@@ -45,7 +44,6 @@ private:
     const BodyTopology& topology_;
     MeshQuery skin_;
     BodyOutline outline_;
-    DrapeBody drape_;
     std::vector<Vec3> bones_;  // of each vertex, its place among the bones that carry it
     struct Limb {
         Vec3 root;       // joint

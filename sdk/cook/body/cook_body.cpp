@@ -1,4 +1,4 @@
-#include "cook/cook_body.h"
+#include "cook/body/cook_body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,6 @@ CookBody::CookBody(const BodyModel& model, vfit_sex sex, std::vector<ShapeSettin
       topology_(model.topology(0)),
       skin_(evaluated_.positions, topology_.indices),
       outline_(model, evaluated_),
-      drape_{evaluated_.positions, topology_.indices, &skin_, outline_.left_shoulder(), topology_.parts},
       bones_(bones_below(evaluated_, topology_)) {
     constexpr float kAnkles_m = 0.08f;  // from the middle
     const auto limb = [&](int from, int to, bool is_leg) {
