@@ -304,6 +304,9 @@ TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {
     const vfit_avatar avatar = body();
     for (const char* name : {"shirt_men", "sundress_pattern", "duster"}) {
         const vfit_garment garment = open(name);
+        // Half of the way down no hand comes to the shirt beside its own sleeve.
+        const bool shirt = std::string_view(name) == "shirt_men";
+        const float turn = shirt ? 0.38f : 0.7f, rest = shirt ? 0.925f : 0.714f;
         uint64_t hashes[2];
         for (const uint32_t flag : {0u, uint32_t(VFIT_CLOTH_NO_HANDS)}) {
             // Arms that come down from the T-pose onto the dress.
@@ -312,7 +315,7 @@ TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {
             bones[0].bone = VFIT_BONE_HIPS, bones[0].rotation[3] = 1.0f, bones[0].position[1] = 0.9f;
             for (int side = 0; side < 2; ++side) {
                 bones[1 + side].bone = side == 0 ? VFIT_BONE_LEFT_UPPER_ARM : VFIT_BONE_RIGHT_UPPER_ARM;
-                bones[1 + side].rotation[2] = side == 0 ? -0.7f : 0.7f, bones[1 + side].rotation[3] = 0.714f;
+                bones[1 + side].rotation[2] = side == 0 ? -turn : turn, bones[1 + side].rotation[3] = rest;
             }
             ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones, sizeof bones[0], 1), VFIT_OK)
                 << contract::last_error();
@@ -327,8 +330,8 @@ TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {
             ASSERT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
             EXPECT_LT(stats.strain_max, 0.6f) << name;
         }
-        // A sleeve meets its own hand either way, and no hand comes to the rest of the shirt.
-        if (std::string_view(name) == "shirt_men")
+        // A sleeve meets its own hand either way.
+        if (shirt)
             EXPECT_EQ(hashes[0], hashes[1]);
         else
             EXPECT_NE(hashes[0], hashes[1]) << name;
