@@ -66,6 +66,8 @@ std::string measures_beside(const std::string& path) {
 /// The body of a request, where it names one.
 std::optional<BodyDrawnFor> body_of(const BodyModel& model, const CookRequest& request,
                                     const std::string& measures) {
+    if (!request.shape.empty() && !request.measures.empty())
+        fail(VFIT_ERROR_ARGUMENT, "either measures or a shape tell on which body it is made, not both");
     if (!request.shape.empty())
         return BodyDrawnFor{
             request.sex == VFIT_SEX_UNKNOWN ? VFIT_SEX_FEMALE : request.sex, request.shape, {}};

@@ -181,16 +181,19 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
     if (base >= sizes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no size ", base);
     check_pattern(sizes[base].pattern);
     const CookBody body(model, options.sex, options.shape);
+    constexpr size_t kEnoughVertices = 24000;  // of all tries: some 30 s
+    size_t tried_vertices = 0;
     double seconds = 0.0;
     std::optional<CookedGarment> best;
     Stance of_best;
     std::exception_ptr fault;
     const auto cook = [&](const Stance stance, float triangles) {
-        if (best && best->report.crossings() == 0) return;
+        if (best && (best->report.crossings() == 0 || tried_vertices > kEnoughVertices)) return;
         try {
             CookedGarment cooked =
                 cook_once(body, sizes, base, fabrics, options, options.triangle_m * triangles, stance, jobs);
             seconds += cooked.report.seconds;
+            tried_vertices += cooked.garment.vertex_count();
             if (best && cooked.report.crossings() >= best->report.crossings()) return;
             best = std::move(cooked);
             of_best = stance;

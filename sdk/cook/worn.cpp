@@ -87,8 +87,8 @@ void check_worn(const std::vector<std::string>& round, const std::string& kind) 
     const auto needs = [&](std::initializer_list<const char*> names) {
         for (const char* name : names)
             if (!has(name))
-                fail(VFIT_ERROR_DATA, "the garment does not go round the ", name, ", as ", kind,
-                     " do: where it came to rest it goes round ", listed(round));
+                fail(VFIT_ERROR_DATA, "the garment does not go round the ", name, ", as its kind (", kind,
+                     ") does: where it came to rest it goes round ", listed(round));
     };
     if (kind == "trousers" || kind == "overall") needs({"left leg", "right leg"});
     if (kind == "skirt") needs({"hips"});

@@ -85,10 +85,9 @@ TEST_F(Worn, HasToBeWhatTheKindGoesRound) {
     for (const char* kind : {"trousers", "dress", "shirt", "overall", "short_sleeves"})
         EXPECT_THROW(check_worn({"hips"}, kind), Error) << kind;
     const std::string told = refusal(tube(0.25f, 0.3f, 1.1f), "shirt");
-    EXPECT_EQ(
-        told.find(
-            "the garment does not go round the chest, as shirt do: where it came to rest it goes round"),
-        0u)
+    EXPECT_EQ(told.find("the garment does not go round the chest, as its kind (shirt) does: where it came to "
+                        "rest it goes round"),
+              0u)
         << told;
 }
 
