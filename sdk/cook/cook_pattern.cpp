@@ -181,7 +181,7 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
     if (base >= sizes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no size ", base);
     check_pattern(sizes[base].pattern);
     const CookBody body(model, options.sex, options.shape);
-    constexpr size_t kEnoughVertices = 24000;  // of all tries: some 30 s
+    constexpr size_t kEnoughVertices = 24000;  // of all tries: about 30 s
     size_t tried_vertices = 0;
     double seconds = 0.0;
     std::optional<CookedGarment> best;
