@@ -82,8 +82,7 @@ void check_worn(const std::vector<std::string>& round, const std::string& kind) 
     if (round.empty())
         fail(VFIT_ERROR_DATA,
              "the garment goes round nothing: where it came to rest it is about neither neck, chest, waist, "
-             "hips, "
-             "an arm nor a leg");
+             "hips, an arm nor a leg");
     const auto needs = [&](std::initializer_list<const char*> names) {
         for (const char* name : names)
             if (!has(name))

@@ -38,4 +38,11 @@ std::vector<std::vector<uint32_t>> borders(std::span<const uint32_t> indices) {
     return out;
 }
 
+float length_around(std::span<const Vec3> places, std::span<const uint32_t> loop) {
+    float sum = 0.0f;
+    for (size_t i = 0; i < loop.size(); ++i)
+        sum += glm::length(places[loop[(i + 1) % loop.size()]] - places[loop[i]]);
+    return sum;
+}
+
 }  // namespace vfit

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 #include <string_view>
@@ -298,6 +300,29 @@ TEST_F(GarmentsTest, TellTheirParts) {
         }
         EXPECT_GT(next, 0u);
     }
+}
+
+TEST_F(GarmentsTest, AreCarriedFromTheBodyThatTheyWereMadeOn) {
+    std::ifstream stream(VFIT_DATA_DIR "/garments/sundress_pattern.json", std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const auto waist_of = [&](vfit_avatar avatar) {
+        vfit_garment garment{};
+        EXPECT_EQ(vfit_garment_load(context, text.data(), text.size(), &garment), VFIT_OK)
+            << contract::last_error();
+        return zone(worn(avatar, garment, nullptr, 90), "waist_girth_m").garment_m;
+    };
+    const vfit_avatar her = body({{"measure-waist-circ", 0.5f}});  // 5 cm more
+    const float on_default = waist_of(body()), on_her = waist_of(her);
+    // The same dress, said to be made on her, is smaller on everybody.
+    for (const auto& [from, to] :
+         {std::pair<std::string, std::string>("\"version\": 2", "\"version\": 3"),
+          {"\"body_sex\": \"f\"", "\"body_sex\": \"f\", \"body_shape\": {\"measure-waist-circ\": 0.5}"}}) {
+        const size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        text.replace(at, from.size(), to);
+    }
+    EXPECT_LT(waist_of(body()), on_default - 0.02f);
+    EXPECT_LT(waist_of(her), on_her - 0.02f);
 }
 
 TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {

@@ -173,14 +173,20 @@ std::vector<Vec3> sewn_places(const Pattern& pattern, const SewnMesh& mesh) {
     return out;
 }
 
-void check_near(const std::vector<Vec3>& places, const BodyOutline& outline) {
-    constexpr float kFar_m = 1.0f;
-    Vec3 middle(0.0f);
-    for (const Vec3& p : places) middle += p / float(places.size());
-    const Vec2 off(middle.x, middle.z - outline.axis_z());
-    if (glm::length(off) > kFar_m)
-        fail(VFIT_ERROR_DATA, "the panels are placed ", std::round(10.0f * glm::length(off)) / 10.0f,
-             " m beside the body: they have to stand around (0, 0)");
+void check_near(const Pattern& pattern, const BodyOutline& outline) {
+    constexpr float kFar_m = 2.0f, kFarUp_m = 10.0f;  // garments have many heights of their own
+    for (const Panel& panel : pattern.panels) {
+        Vec3 middle(0.0f);
+        for (const Vec2& p : panel.corners)
+            middle += (panel.rotation * Vec3(p, 0.0f) + panel.translation) / float(panel.corners.size());
+        const float off_m = glm::length(Vec2(middle.x, middle.z - outline.axis_z()));
+        if (!(off_m <= kFar_m))
+            fail(VFIT_ERROR_DATA, "panel ", panel.name, " is placed ", std::round(10.0f * off_m) / 10.0f,
+                 " m beside the body: panels have to stand around (0, 0)");
+        if (!(std::abs(middle.y) <= kFarUp_m))
+            fail(VFIT_ERROR_DATA, "panel ", panel.name, " is placed at ", middle.y,
+                 " m of height: panels have to stand around the body");
+    }
 }
 
 /// What no seam joins to that by which the garment is held would fall to the floor.
@@ -245,7 +251,7 @@ Placement place_panels(const Pattern& pattern, const SewnMesh& mesh, const BodyO
     Placement out;
     const Hanger hanger(pattern, outline);
     const std::vector<Vec3> sewn = sewn_places(pattern, mesh);
-    check_near(sewn, outline);
+    check_near(pattern, outline);
     std::vector<Stitch> seams;
     if (const auto by = hanger.by_shoulders(seams)) {
         out.hangs_on = HangsOn::shoulders, out.raised_m = *by;

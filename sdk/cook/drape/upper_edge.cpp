@@ -33,13 +33,6 @@ std::vector<uint32_t> upper_edge(std::span<const Vec3> places,
     return edge;
 }
 
-float length_around(std::span<const Vec3> places, const std::vector<uint32_t>& opening) {
-    float sum = 0.0f;
-    for (size_t i = 0; i < opening.size(); ++i)
-        sum += glm::length(places[opening[(i + 1) % opening.size()]] - places[opening[i]]);
-    return sum;
-}
-
 float mean_height(std::span<const Vec3> places, const std::vector<uint32_t>& of) {
     float sum = 0.0f;
     for (const uint32_t v : of) sum += places[v].y;

@@ -14,9 +14,6 @@ namespace vfit {
 std::vector<uint32_t> upper_edge(std::span<const Vec3> places,
                                  const std::vector<std::vector<uint32_t>>& openings, float axis_z);
 
-/// Length of a closed line through these.
-float length_around(std::span<const Vec3> places, const std::vector<uint32_t>& opening);
-
 float mean_height(std::span<const Vec3> places, const std::vector<uint32_t>& of);
 
 }  // namespace vfit

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cook/drape/upper_edge.h"
+#include "geometry/borders.h"
 
 namespace vfit {
 

@@ -415,13 +415,6 @@ private:
         return out;
     }
 
-    float around(const std::vector<uint32_t>& loop) const {
-        float sum = 0.0f;
-        for (size_t i = 0; i < loop.size(); ++i)
-            sum += glm::length(places_[loop[(i + 1) % loop.size()]] - places_[loop[i]]);
-        return sum;
-    }
-
     /// Two sheets of one surface that face away from each other, closer than any cloth hangs.
     void check_shells() const {
         const std::vector<uint32_t> all_indices = indices();
@@ -462,7 +455,7 @@ private:
         std::string lengths;
         const auto sides_of = sides();
         for (const auto& loop : loops) {
-            const float length = around(loop);
+            const float length = length_around(places_, loop);
             longest = std::max(longest, length);
             if (length >= kHole_m) continue;
             if (!close_hole(loop, sides_of)) {
@@ -585,10 +578,7 @@ private:
 }  // namespace
 
 float Surface::length_of(const std::vector<uint32_t>& opening) const {
-    float sum = 0.0f;
-    for (size_t i = 0; i < opening.size(); ++i)
-        sum += glm::length(positions[opening[(i + 1) % opening.size()]] - positions[opening[i]]);
-    return sum;
+    return length_around(positions, opening);
 }
 
 Surface make_surface(const Model& model, float unit_m) { return SurfaceMaker(model, unit_m).run(); }

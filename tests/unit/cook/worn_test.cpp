@@ -100,7 +100,13 @@ TEST_F(Worn, PanelsThatHangOnNothingAreNamed) {
     Pattern far_off = tube(0.25f, 0.3f, 1.1f);
     for (Panel& panel : far_off.panels) panel.translation.x += 5.0f;
     EXPECT_EQ(refusal(far_off),
-              "the panels are placed 5 m beside the body: they have to stand around (0, 0)");
+              "panel front is placed 5 m beside the body: panels have to stand around (0, 0)");
+    Pattern apart = tube(0.25f, 0.3f, 1.1f);  // on both sides of the body, as far as numbers go
+    apart.panels[0].translation.z = 3e38f, apart.panels[1].translation.z = -3e38f;
+    EXPECT_EQ(refusal(apart).find("panel front is placed "), 0u);
+    Pattern high = tube(0.25f, 0.3f, 1.1f);
+    high.panels[1].translation.y = 1e30f;
+    EXPECT_EQ(refusal(high).find("panel back is placed at 1e+30 m of height"), 0u);
 }
 
 /// Half a disc with a waist cut out, before or behind the body.
