@@ -1299,7 +1299,7 @@ class Contract(unittest.TestCase):
                 worn = run("wear", made, "--draft", "--out", folder / "worn")
                 self.assertEqual(worn.returncode, 0, worn.stderr)
             for name, reason in (
-                ("made_far", "5 m beside the body"),
+                ("made_far", "left_btorso is placed 5.1 m beside the body"),
                 ("made_nostitch", "hangs on nothing"),
             ):
                 spec = garments / f"{name}_specification.json"
