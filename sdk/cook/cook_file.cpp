@@ -141,7 +141,7 @@ Model read_model(const std::string& path) {
     return read_obj({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, beside);
 }
 
-CookedGarment cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
+std::vector<CookedGarment> cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
                         Jobs& jobs) {
     ModelOptions options;
     options.name = request.name.empty() ? name_of(request.path) : request.name;
@@ -152,7 +152,9 @@ CookedGarment cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, co
     options.cook.drape = request.drape;
     if (const auto body = body_of(model, request, request.measures))
         options.cook.sex = body->sex, options.cook.shape = body->shape;
-    options.unit_m = ending_of(request.path) == ".obj" ? request.unit_m : 1.0f;
+    if (request.unit_m > 0.0f) options.alignment.unit_m = request.unit_m, options.alignment.unit_told = true;
+    options.alignment.scale = request.scale;
+    options.alignment.stands_by = request.stands_by;
     options.size_label = request.size_label;
     try {
         return cook_model(model, read_model(request.path), fabrics, options, jobs);
@@ -163,6 +165,12 @@ CookedGarment cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, co
     }
 }
 
+std::vector<CookedGarment> one(CookedGarment&& cooked) {
+    std::vector<CookedGarment> out;
+    out.push_back(std::move(cooked));
+    return out;
+}
+
 }  // namespace
 
 bool is_mesh_file(const std::string& path) {
@@ -170,17 +178,17 @@ bool is_mesh_file(const std::string& path) {
     return ending == ".obj" || ending == ".gltf" || ending == ".glb";
 }
 
-CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
+std::vector<CookedGarment> cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
                         Jobs& jobs) {
     if (is_mesh_file(request.path)) return cook_mesh(model, fabrics, request, jobs);
     const std::vector<std::byte> text = read_file(request.path);
-    if (is_garmentcode(text)) return cook_specification(model, fabrics, request, text, jobs);
+    if (is_garmentcode(text)) return one(cook_specification(model, fabrics, request, text, jobs));
     const Json root = parse_json(text, "garment design");
     const std::string format = root.is_object() && root.contains("format") && root["format"].is_string()
                                    ? root["format"].get<std::string>()
                                    : "";
-    if (format == "vfit-sundress") return {cook_sundress(model, parse_sundress(text)), {}, {}, {}};
-    if (format == "vfit-design") return cook_design(model, fabrics, request, text, jobs);
+    if (format == "vfit-sundress") return one({cook_sundress(model, parse_sundress(text)), {}, {}, {}, {}, {}});
+    if (format == "vfit-design") return one(cook_design(model, fabrics, request, text, jobs));
     fail(VFIT_ERROR_UNSUPPORTED, request.path,
          " is no garment that can be cooked: neither a mesh (.obj, .gltf, .glb) nor a GarmentCode "
          "specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-design\" or "

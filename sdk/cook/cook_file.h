@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cook/cook_pattern.h"
+#include "cook/model/alignment.h"
 
 namespace vfit {
 
@@ -16,8 +17,10 @@ struct CookRequest {
     // measures that lie beside it.
     std::string measures;
     std::vector<ShapeSetting> shape;
-    // Of a mesh: the unit of an OBJ file's numbers, and the label of its size (empty: none).
-    float unit_m = 1.0f;
+    // Of a mesh: the unit of its numbers (0: metres, or what makes it a garment that fits), by how much it is
+    // scaled (0: not by hand), by what it is placed, and the label of its size (empty: none).
+    float unit_m = 0.0f, scale = 0.0f;
+    StandsBy stands_by = StandsBy::any;
     std::string size_label;
     float triangle_m = 0.02f;
     DrapeSettings drape;
@@ -26,9 +29,9 @@ struct CookRequest {
 /// By its ending, whether it is a mesh.
 bool is_mesh_file(const std::string& path);
 
-/// VFIT_ERROR_DATA says what is wrong with it; VFIT_ERROR_UNSUPPORTED that it is none of the kinds that are
+/// The garments in a file, the innermost first. VFIT_ERROR_DATA says what is wrong with it; VFIT_ERROR_UNSUPPORTED that it is none of the kinds that are
 /// known.
-CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
+std::vector<CookedGarment> cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
                         Jobs& jobs);
 
 }  // namespace vfit

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cloth/garment/cut.h"
 #include "cook/body/cook_body.h"
 #include "cook/drape/grow_body.h"
-#include "cook/model/stand.h"
+#include "cook/drape/upper_edge.h"
+#include "cook/model/pieces.h"
+#include "cook/model/skeleton_probe.h"
 #include "cook/model/surface.h"
 #include "cook/worn.h"
 #include "core/clock.h"
@@ -47,88 +50,284 @@ std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& pl
     return out;
 }
 
-void add_notes(const WholeCloth& cloth, float thickness_m, const Standing& standing, const Draped& draped,
-               std::vector<std::string>& notes) {
-    const auto percent = [](float share) { return int(share * 100.0f + 0.5f); };
-    constexpr float kMuch = 0.05f;
-    if (standing.moved.z != 0.0f)
-        notes.push_back(text("it stood ", percent(std::abs(standing.moved.z)), " cm too far ",
-                             standing.moved.z < 0.0f ? "forward" : "back", " and was moved"));
-    if (standing.inside_share > kMuch)
-        notes.push_back(text(percent(standing.inside_share),
-                             " % of the vertices lay in the default body, up to ",
-                             percent(standing.deepest_m),
-                             " cm deep: it was modelled on a slimmer body, or on one whose arms are held "
-                             "otherwise (ours at about 45 degrees)"));
-    constexpr float kCoarse_m = 0.04f;
-    const int side_mm = int(mean_side(cloth) * 1000.0f + 0.5f);
-    if (mean_side(cloth) > kCoarse_m)
-        notes.push_back(
-            text("its triangles are ", side_mm, " mm large: it will fold coarsely (20 mm do well)"));
-    if (!keeps_layers_apart(cloth, thickness_m))
-        notes.push_back(text(
-            "its triangles are ", side_mm,
-            " mm large: too small for its own layers to be kept apart while it settled (20 mm do well)"));
-    add_drape_notes(draped.report, notes);
-    if (std::find(draped.simulated.begin(), draped.simulated.end(), 0) == draped.simulated.end())
-        notes.push_back("it is held nowhere: all of it is simulated, and may slide off");
+constexpr float kTrimShare = 0.05f;  // of the whole area: a piece smaller than that is no garment of its own
+constexpr float kShellsApart_m = 0.025f;
+
+/// How one of a model's pieces is worn.
+struct WornPiece {
+    const Piece* piece;
+    Parted parted;
+    float off_skin_m;  // mean
+};
+
+/// "trousers", by what it goes round.
+std::string kind_of(const WornPiece& worn, const Surface& surface, const Alignment& alignment,
+                    const CookBody& body) {
+    const Parted& p = worn.parted;
+    if (p.legs_from_each_other()) return p.over_shoulder() ? "overall" : "trousers";
+    const TailorLevels& levels = body.outline().levels();
+    float low = INFINITY, high = -INFINITY, sleeve_m = 0.0f;
+    for (const Vec3& at : surface.positions) {
+        const float y = alignment.place(at).y;
+        low = std::min(low, y), high = std::max(high, y);
+    }
+    if (!p.over_shoulder()) return high > levels.bust - 0.05f ? "dress" : "skirt";
+    if (!p.legs_from_head()) return "jacket";
+    constexpr float kDress = 0.3f;  // of the way from hip to knee
+    if (low < glm::mix(levels.hip, levels.knee, kDress)) return "dress";
+    for (const auto& opening : surface.openings) {
+        Vec3 middle(0.0f);
+        for (const uint32_t v : opening)
+            middle += alignment.place(surface.positions[v]) / float(opening.size());
+        for (const Limb arm : {Limb::left_arm, Limb::right_arm})
+            if (middle.x * body.root(arm).x > 0.0f && std::abs(middle.x) > std::abs(body.root(arm).x))
+                sleeve_m = std::max(sleeve_m, glm::length(middle - body.root(arm)));
+    }
+    const float upper_arm_m = glm::length(body.end(Limb::left_arm) - body.root(Limb::left_arm));
+    constexpr float kSleeve_m = 0.1f;
+    return sleeve_m < kSleeve_m ? "vest" : sleeve_m < 1.2f * upper_arm_m ? "short_sleeves" : "long_sleeves";
 }
+
+class ModelCook {
+public:
+    ModelCook(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics,
+              const ModelOptions& options, Jobs& jobs)
+        : model_(model),
+          fabrics_(fabrics),
+          options_(options),
+          jobs_(jobs),
+          body_(body_model, options.cook.sex, options.cook.shape),
+          pieces_(make_pieces(model, plausible_unit(model, options.alignment.unit_m,
+                                                    options.alignment.unit_told))) {}
+
+    std::vector<CookedGarment> run() {
+        AlignmentOptions how = options_.alignment;
+        if (options_.cook.kind_told) how.kind = options_.cook.kind;
+        how.thickness_m = options_.cook.drape.thickness_m;
+        alignment_ = align(pieces_, body_, how);
+        for (Vec3& p : pieces_.places) p = alignment_.scale * (alignment_.turn * p);
+        alignment_.turn = Mat3(1.0f), alignment_.scale = 1.0f;
+        std::vector<CookedGarment> out;
+        const std::vector<WornPiece> worn = worn_pieces();
+        std::set<std::string> names;
+        for (const WornPiece& piece : worn) {
+            CookedGarment cooked = cook(piece);
+            if (worn.size() > 1) {
+                const std::string kind = cooked.garment.kind;
+                for (int i = 2; cooked.of_set.empty(); ++i)
+                    if (const std::string name = i == 2 ? kind : text(kind, i - 1); names.insert(name).second)
+                        cooked.of_set = name;
+                cooked.garment.name += "_" + cooked.of_set;
+            }
+            out.push_back(std::move(cooked));
+        }
+        std::vector<std::string>& notes = out.front().notes;
+        notes.insert(notes.begin(), notes_.begin(), notes_.end());
+        return out;
+    }
+
+private:
+    /// The garments among them, the innermost first.
+    std::vector<WornPiece> worn_pieces() {
+        const SkeletonProbe probe(body_);
+        notes_ = model_.notes;
+        for (const auto* list : {&pieces_.notes, &alignment_.notes})
+            notes_.insert(notes_.end(), list->begin(), list->end());
+        float area = 0.0f;
+        for (const Piece& piece : pieces_.list) area += piece.area_m2;
+        std::vector<WornPiece> out;
+        size_t left_out = 0, left_out_triangles = 0;
+        std::set<std::string> materials;
+        for (const Piece& piece : pieces_.list) {
+            const Parted parted =
+                probe.parted(pieces_.places, piece.openings, alignment_.moved, alignment_.stance);
+            if (piece.area_m2 < kTrimShare * area) {
+                ++left_out, left_out_triangles += piece.triangles.size();
+                materials.insert(pieces_.material_of(piece));
+                continue;
+            }
+            if (const WornPiece* other = shell_of(piece, parted, out)) refuse_shell(piece, *other->piece);
+            if (parted.round_nothing() && !out.empty()) refuse_part(piece, *out.front().piece);
+            out.push_back({&piece, parted, off_skin(piece)});
+        }
+        if (left_out > 0) {
+            std::string named;
+            for (const std::string& name : materials)
+                if (!name.empty()) named += (named.empty() ? " of material \"" : ", \"") + name + "\"";
+            notes_.push_back(text(left_out, " pieces (", left_out_triangles, " triangles", named,
+                                  ") are left out: they are not joined to the garment, and each is smaller "
+                                  "than ",
+                                  int(kTrimShare * 100), " % of it"));
+        }
+        std::stable_sort(out.begin(), out.end(), [](const WornPiece& a, const WornPiece& b) {
+            return a.off_skin_m < b.off_skin_m;
+        });
+        return out;
+    }
+
+    float off_skin(const Piece& piece) const {
+        double sum = 0.0;
+        for (const uint32_t v : piece.indices)
+            sum += double(body_.skin().signed_distance(pieces_.places[v] + alignment_.moved));
+        return float(sum / double(piece.indices.size()));
+    }
+
+    /// Another piece close beside it that goes round the same, and is as large.
+    const WornPiece* shell_of(const Piece& piece, const Parted& parted,
+                              const std::vector<WornPiece>& others) const {
+        constexpr float kAsLarge = 0.8f, kBeside = 0.8f;
+        for (const WornPiece& other : others) {
+            if (other.parted.group != parted.group || piece.area_m2 < kAsLarge * other.piece->area_m2)
+                continue;
+            const MeshQuery cloth(pieces_.places, other.piece->indices);
+            size_t beside = 0;
+            for (const uint32_t v : piece.indices)
+                beside += cloth.closest(pieces_.places[v]).distance < kShellsApart_m;
+            if (float(beside) > kBeside * float(piece.indices.size())) return &other;
+        }
+        return nullptr;
+    }
+
+    [[noreturn]] void refuse_shell(const Piece& piece, const Piece& other) const {
+        const MeshQuery cloth(pieces_.places, other.indices);
+        double sum = 0.0;
+        for (const uint32_t v : piece.indices) sum += double(cloth.closest(pieces_.places[v]).distance);
+        fail(VFIT_ERROR_DATA, "the garment is modelled with thickness: there are two shells, ",
+             std::lround(1000.0 * sum / double(piece.indices.size())), " mm apart; give the outer shell alone");
+    }
+
+    [[noreturn]] void refuse_part(const Piece& piece, const Piece& other) const {
+        const MeshQuery cloth(pieces_.places, other.indices);
+        float nearest = INFINITY;
+        for (const uint32_t v : piece.indices)
+            nearest = std::min(nearest, cloth.closest(pieces_.places[v]).distance);
+        const std::string material = pieces_.material_of(piece);
+        fail(VFIT_ERROR_DATA, "the garment is in pieces: ", piece.triangles.size(), " triangles",
+             material.empty() ? "" : " of material \"" + material + "\"", " (", pieces_.name_of(piece),
+             ") are not joined to the others, ", std::round(nearest * 10000.0f) / 10.0f,
+             " mm away, and go round nothing by themselves; join them by common vertices");
+    }
+
+    CookedGarment cook(const WornPiece& worn) {
+        const Stopwatch watch;
+        Surface surface = make_surface(pieces_, *worn.piece);
+        const FabricMaterial material = fabrics_.get(options_.cook.fabric);
+        const MeshQuery& skin = body_.skin();
+        const float thickness = options_.cook.drape.thickness_m;
+        CookedGarment out;
+        Garment& g = out.garment;
+        g.name = options_.name;
+        g.kind = options_.cook.kind_told ? options_.cook.kind : kind_of(worn, surface, alignment_, body_);
+        g.size_chart = options_.cook.size_chart;
+        g.fabric = options_.cook.fabric;
+        g.body_sex = body_.sex();
+        g.body_shape = body_.settings();
+        g.mesh.indices = surface.indices;
+        g.mesh.uvs = surface.uvs;
+        g.copies = surface.copies;
+        g.corners = surface.corners;
+        g.cut_shape = surface.positions;
+        const std::vector<Vec2> cut = cut_corners(g);
+        const WholeCloth cloth{surface.indices, cut, &material};
+        std::vector<Vec3> places = surface.positions;
+        for (Vec3& p : places) p += alignment_.moved;
+        out.report.hangs_on = worn.parted.over_shoulder() ? HangsOn::shoulders : HangsOn::waist;
+        Hold hold;
+        if (out.report.hangs_on == HangsOn::waist) {
+            hold.of.assign(places.size(), 0);
+            for (const uint32_t v : upper_edge(places, surface.openings, body_.outline().axis_z()))
+                hold.of[v] = 1;
+        }
+        if (options_.cook.drape.watch) options_.cook.drape.watch("placed", places);
+        const Inside inside = inside_of(places);
+        constexpr float kOtherBody = 0.005f;  // of its vertices that lie well within ours
+        if (inside.share > kOtherBody || !alignment_.stance.is_rest()) {
+            Stance thinnest = alignment_.stance;
+            thinnest.thickness = 0.2f;
+            places = grow_body_into(cloth, std::move(places), body_, thinnest, {}, thickness, jobs_);
+            if (options_.cook.drape.watch) options_.cook.drape.watch("grown", places);
+        }
+        push_out(skin, thickness, places);
+        const Draped draped = settle(cloth, std::move(places), hold, body_, options_.cook.drape, jobs_);
+        const DrapeReport placed = out.report;
+        out.report = draped.report;
+        out.report.hangs_on = placed.hangs_on;
+        out.report.raised_m = alignment_.moved.y;
+        g.mesh.positions = draped.positions;
+        g.simulated = draped.simulated;
+        g.backstop.assign(g.vertex_count(), 0);
+        g.on_arm = sleeves(surface, draped.positions, body_);
+        g.parts = std::move(surface.parts);
+        if (!options_.size_label.empty()) g.sizes.push_back({options_.size_label, {}, {}});
+        turn_outside_out(g, skin);
+        validate_garment(g, fabrics_);
+        out.round = goes_round(g.mesh.positions, g.mesh.indices, body_);
+        check_worn(out.round, options_.cook.kind_told ? options_.cook.kind : "");
+        out.notes = surface.notes;
+        add_notes(cloth, thickness, inside, draped, out.notes);
+        for (const auto& opening : surface.openings) out.openings_m.push_back(surface.length_of(opening));
+        out.report.seconds = watch.ms() / 1000.0;
+        return out;
+    }
+
+    struct Inside {
+        float share = 0.0f;      // of the vertices that lie in the body by more than a centimetre
+        float deepest_m = 0.0f;  // of any
+    };
+    Inside inside_of(const std::vector<Vec3>& places) const {
+        constexpr float kDeep_m = 0.01f;
+        const MeshQuery posed(body_.leaving(alignment_.stance, 0.0f), body_.indices());
+        Inside out;
+        size_t inside = 0;
+        for (const Vec3& p : places) {
+            const float distance = posed.signed_distance(p);
+            inside += distance < -kDeep_m;
+            out.deepest_m = std::max(out.deepest_m, -distance);
+        }
+        out.share = float(inside) / float(places.size());
+        return out;
+    }
+
+    void add_notes(const WholeCloth& cloth, float thickness_m, const Inside& inside, const Draped& draped,
+                   std::vector<std::string>& notes) const {
+        const auto percent = [](float share) { return int(share * 100.0f + 0.5f); };
+        constexpr float kMuch = 0.05f;
+        if (alignment_.moved.z != 0.0f)
+            notes.push_back(text("it stood ", percent(std::abs(alignment_.moved.z)), " cm too far ",
+                                 alignment_.moved.z < 0.0f ? "forward" : "back", " and was moved"));
+        if (inside.share > kMuch)
+            notes.push_back(text(percent(inside.share), " % of the vertices lay in the body, up to ",
+                                 percent(inside.deepest_m), " cm deep: it was modelled on a slimmer one"));
+        constexpr float kCoarse_m = 0.04f;
+        const int side_mm = int(mean_side(cloth) * 1000.0f + 0.5f);
+        if (mean_side(cloth) > kCoarse_m)
+            notes.push_back(
+                text("its triangles are ", side_mm, " mm large: it will fold coarsely (20 mm do well)"));
+        if (!keeps_layers_apart(cloth, thickness_m))
+            notes.push_back(
+                text("its triangles are ", side_mm,
+                     " mm large: too small for its own layers to be kept apart while it settled (20 mm do "
+                     "well)"));
+        add_drape_notes(draped.report, notes);
+        if (std::find(draped.simulated.begin(), draped.simulated.end(), 0) == draped.simulated.end())
+            notes.push_back("it is held nowhere: all of it is simulated, and may slide off");
+    }
+
+    const Model& model_;
+    const FabricLibrary& fabrics_;
+    const ModelOptions& options_;
+    Jobs& jobs_;
+    const CookBody body_;
+    Pieces pieces_;
+    Alignment alignment_;
+    std::vector<std::string> notes_;
+};
 
 }  // namespace
 
-CookedGarment cook_model(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics,
-                         const ModelOptions& options, Jobs& jobs) {
-    const Stopwatch watch;
-    Surface surface = make_surface(model, options.unit_m);
-    const FabricMaterial material = fabrics.get(options.cook.fabric);
-    const CookBody made_on(body_model, options.cook.sex, options.cook.shape);
-    const MeshQuery& skin = made_on.skin();
-    const float thickness = options.cook.drape.thickness_m;
-    const Standing standing = stand(surface, made_on.outline(), skin, thickness);
-
-    CookedGarment out;
-    Garment& g = out.garment;
-    g.name = options.name;
-    g.kind = options.cook.kind;
-    g.size_chart = options.cook.size_chart;
-    g.fabric = options.cook.fabric;
-    g.body_sex = made_on.sex();
-    g.body_shape = made_on.settings();
-    g.mesh.indices = surface.indices;
-    g.mesh.uvs = surface.uvs;
-    g.copies = surface.copies;
-    g.corners = surface.corners;
-    g.cut_shape = surface.positions;
-    const std::vector<Vec2> cut = cut_corners(g);
-    const WholeCloth cloth{surface.indices, cut, &material};
-    constexpr float kOtherBody = 0.005f;  // of its vertices that lie well within ours
-    constexpr Stance kThinnest{0.2f};
-    std::vector<Vec3> places = standing.places;
-    if (options.cook.drape.watch) options.cook.drape.watch("placed", places);
-    if (standing.inside_share > kOtherBody)
-        places = grow_body_into(cloth, std::move(places), made_on, kThinnest, {}, thickness, jobs);
-    const Draped draped = settle(cloth, pushed_out(std::move(places), skin, thickness), standing.hold,
-                                 made_on, options.cook.drape, jobs);
-    out.report = draped.report;
-    out.report.hangs_on = standing.hangs_on;
-    out.report.raised_m = standing.moved.y;
-    g.mesh.positions = draped.positions;
-    g.simulated = draped.simulated;
-    g.backstop.assign(g.vertex_count(), 0);
-    g.on_arm = sleeves(surface, draped.positions, made_on);
-    g.parts = std::move(surface.parts);
-    if (!options.size_label.empty()) g.sizes.push_back({options.size_label, {}, {}});
-    turn_outside_out(g, skin);
-    validate_garment(g, fabrics);
-    out.round = goes_round(g.mesh.positions, g.mesh.indices, made_on);
-    check_worn(out.round, options.cook.kind_told ? options.cook.kind : "");
-
-    out.notes = model.notes;
-    out.notes.insert(out.notes.end(), surface.notes.begin(), surface.notes.end());
-    add_notes(cloth, thickness, standing, draped, out.notes);
-    for (const auto& opening : surface.openings) out.openings_m.push_back(surface.length_of(opening));
-    out.report.seconds = watch.ms() / 1000.0;
-    return out;
+std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& model,
+                                      const FabricLibrary& fabrics, const ModelOptions& options, Jobs& jobs) {
+    return ModelCook(body_model, model, fabrics, options, jobs).run();
 }
 
 }  // namespace vfit

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cook/cook_pattern.h"
+#include "cook/model/alignment.h"
 #include "cook/model/model.h"
 
 namespace vfit {
@@ -12,12 +13,13 @@ namespace vfit {
 struct ModelOptions {
     std::string name;
     CookOptions cook;
-    float unit_m = 1.0f;     // of the positions
+    AlignmentOptions alignment;
     std::string size_label;  // empty: it has none
 };
 
-/// VFIT_ERROR_DATA says what is no garment's mesh, and where.
-CookedGarment cook_model(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics,
+/// A file may hold several garments, as a suit does: the innermost first. VFIT_ERROR_DATA says what is no
+/// garment's mesh, and where.
+std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics,
                          const ModelOptions& options, Jobs& jobs);
 
 }  // namespace vfit

@@ -167,11 +167,13 @@ CookedGarment cook_once(const CookBody& body, const std::vector<PatternSize>& si
 /// About the body at rest; then about a thin one that grows in the garment, for sleeves that are narrow for
 /// the arms, with legs together, for skirts that are narrow for legs apart, and with arms level, so that
 /// sleeves cut in one with the front close below them, and a wide skirt does not catch on hands.
-std::vector<Stance> stances(const Pattern& pattern, const BodyOutline& outline) {
-    constexpr float kThin = 0.6f;
-    const bool skirt = !has_legs(pattern, outline);
-    if (has_sleeves(pattern, outline)) return {{}, {kThin, skirt, false}, {kThin, skirt, true}};
-    return {{}, {kThin, skirt, true}};
+std::vector<Stance> stances(const Pattern& pattern, const CookBody& body) {
+    Stance thin(0.6f);
+    if (!has_legs(pattern, body.outline())) body.put_legs_together(thin);
+    Stance arms_level = thin;
+    body.hold_arms_level(arms_level);
+    if (has_sleeves(pattern, body.outline())) return {Stance(), thin, arms_level};
+    return {Stance(), arms_level};
 }
 
 }  // namespace
@@ -201,7 +203,7 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
             if (!fault) fault = std::current_exception();
         }
     };
-    for (const Stance& stance : stances(sizes[base].pattern, body.outline())) cook(stance, 1.0f);
+    for (const Stance& stance : stances(sizes[base].pattern, body)) cook(stance, 1.0f);
     if (!best) std::rethrow_exception(fault);
     // Whether a fold gets caught when cloth falls from where it was sewn is chance: with triangles of a
     // little another size it falls anew.

@@ -34,6 +34,7 @@ struct CookOptions {
 
 struct CookedGarment {
     Garment garment;
+    std::string of_set;  // which of the garments in its file: "trousers"; empty: the only one
     DrapeReport report;
     std::vector<std::string> round;  // what it goes round (worn.h)
     std::vector<std::string> notes;  // of what was mended, left out, not found, or is to be looked at

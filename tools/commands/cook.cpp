@@ -20,9 +20,8 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit = "m", size_label, measures,
-                                                                           shape;
-    float triangle_mm = 20.0f;
+    std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit, size_label, measures, shape, stand;
+    float triangle_mm = 20.0f, scale = 0.0f;
     bool json = false;
 };
 
@@ -31,6 +30,13 @@ std::string data_beside(const std::string& name) {
     const std::string prefix = library_folder() + "/../", file = "/vfit_data/" + name;
     const std::string built = prefix + "lib" + file;
     return std::filesystem::exists(built) ? built : prefix + VFIT_LIBDIR + file;
+}
+
+float unit_named(const std::string& name) {
+    for (const auto& [known, metres] : {std::pair("m", 1.0f), std::pair("dm", 0.1f), std::pair("cm", 0.01f),
+                                        std::pair("mm", 0.001f), std::pair("in", 0.0254f)})
+        if (name == known) return metres;
+    return 0.3048f;
 }
 
 Json report_of(const CookedGarment& cooked) {
@@ -72,7 +78,8 @@ public:
               read_file(options.fabrics.empty() ? data_beside("fabrics.json") : options.fabrics))),
           jobs_(Jobs::own(1)) {}
 
-    Json cook(const std::string& design, const std::string& out) {
+    /// A report each of its garments, the innermost first.
+    std::vector<Json> cook(const std::string& design, const std::string& out) {
         CookRequest request;
         request.path = design;
         request.kind = options_.kind;
@@ -85,13 +92,23 @@ public:
         for (const vfit_shape_value& value : shape_values(options_.shape))
             request.shape.push_back({value.key, value.value});
         request.triangle_m = options_.triangle_mm / 1000.0f;
-        request.unit_m = options_.unit == "mm" ? 0.001f : options_.unit == "cm" ? 0.01f : 1.0f;
+        if (!options_.unit.empty()) request.unit_m = unit_named(options_.unit);
+        request.scale = options_.scale;
+        request.stands_by = options_.stand == "as-modelled" ? StandsBy::as_modelled
+                            : options_.stand == "shoulders" ? StandsBy::shoulders
+                            : options_.stand == "waist"     ? StandsBy::waist
+                                                            : StandsBy::any;
         request.size_label = options_.size_label;
-        const CookedGarment cooked = cook_file(*model_, fabrics_, request, *jobs_);
-        write_text(out, write_garment(cooked.garment));
-        Json report = report_of(cooked);
-        report["file"] = out;
-        return report;
+        std::vector<Json> reports;
+        for (const CookedGarment& cooked : cook_file(*model_, fabrics_, request, *jobs_)) {
+            std::filesystem::path file(out);
+            if (!cooked.of_set.empty())
+                file.replace_filename(file.stem().string() + "_" + cooked.of_set + file.extension().string());
+            write_text(file.string(), write_garment(cooked.garment));
+            reports.push_back(report_of(cooked));
+            reports.back()["file"] = file.string();
+        }
+        return reports;
     }
 
 private:
@@ -138,11 +155,13 @@ bool is_simulation(const std::filesystem::path& design) {
 void cook(const Options& options) {
     Cook kitchen(options);
     if (!std::filesystem::is_directory(options.design)) {
-        const Json report = kitchen.cook(options.design, options.out);
-        if (options.json)
-            print_document(report);
+        const std::vector<Json> reports = kitchen.cook(options.design, options.out);
+        if (!options.json)
+            for (const Json& report : reports) std::cout << line_of(report) << "\n";
+        else if (reports.size() == 1)
+            print_document(reports[0]);
         else
-            std::cout << line_of(report) << "\n";
+            print_document({{"garments", reports}});
         return;
     }
     // A catalogue: every design below the folder; one that fails does not stop the others.
@@ -168,9 +187,11 @@ void cook(const Options& options) {
             for (int i = 2; !names.insert(name).second; ++i) name = vfit::text(first, "_", i);
         }
         try {
-            cooked.push_back(kitchen.cook(design.string(),
-                                          (std::filesystem::path(options.out) / (name + ".json")).string()));
-            if (!options.json) std::cout << line_of(cooked.back()) << std::endl;
+            for (const Json& report : kitchen.cook(
+                     design.string(), (std::filesystem::path(options.out) / (name + ".json")).string())) {
+                cooked.push_back(report);
+                if (!options.json) std::cout << line_of(report) << std::endl;
+            }
         } catch (const Error& error) {
             if (error.code() == VFIT_ERROR_UNSUPPORTED)
                 left_out.push_back(design.string());
@@ -225,8 +246,20 @@ void add_cook(Command& app) {
                        "The body that it was made on: height=0.7,weight=1 (docs/virtual-person.md)");
     command.add_option("--size-label", o->size_label,
                        "Of a mesh: the label of the size that it is modelled in");
-    command.add_option("--unit", o->unit, "Of an OBJ file: m, cm or mm (default m)")
-        .one_of({"m", "cm", "mm"});
+    command
+        .add_option("--unit", o->unit,
+                    "Of a mesh: the unit of its numbers: m, dm, cm, mm, in or ft (default: m, or the one in "
+                    "which it fits)")
+        .one_of({"m", "dm", "cm", "mm", "in", "ft"});
+    command
+        .add_option("--scale", o->scale,
+                    "Of a mesh: by how much it is made larger (default: 1, or what brings it to the body)")
+        .within(0.01, 100);
+    command
+        .add_option("--stand", o->stand,
+                    "Of a mesh: how it comes to the body: as-modelled (it is not moved), by its shoulders or "
+                    "by its waist (default: as it is worn without bones in its cloth)")
+        .one_of({"as-modelled", "shoulders", "waist"});
     command.add_option("--triangle", o->triangle_mm, "Side of a triangle of a pattern in mm (default 20)")
         .within(5, 100);
     command.add_flag("--json", o->json, "Print JSON");

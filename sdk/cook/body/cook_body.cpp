@@ -8,6 +8,8 @@ namespace vfit {
 
 namespace {
 
+const Quat kAtRest(1, 0, 0, 0);
+
 EvaluatedBody evaluate(const BodyModel& model, vfit_sex sex, const std::vector<ShapeSetting>& settings) {
     EvaluatedBody body;
     model.evaluate(shape_of(model, sex, settings), body);
@@ -47,6 +49,10 @@ std::vector<float> shares(const BodyModel& model, const BodyTopology& topology, 
 
 }  // namespace
 
+bool Stance::is_rest() const {
+    return thickness == 1.0f && std::all_of(turned.begin(), turned.end(), [](const Quat& q) { return q == kAtRest; });
+}
+
 CookBody::CookBody(const BodyModel& model, vfit_sex sex, std::vector<ShapeSetting> settings)
     : model_(model),
       sex_(sex),
@@ -56,18 +62,17 @@ CookBody::CookBody(const BodyModel& model, vfit_sex sex, std::vector<ShapeSettin
       skin_(evaluated_.positions, topology_.indices),
       outline_(model, evaluated_),
       bones_(bones_below(evaluated_, topology_)) {
-    constexpr float kAnkles_m = 0.08f;  // from the middle
-    const auto limb = [&](int from, int to, bool is_leg) {
-        const Vec3 root = joint(from), end = joint(to);
-        const float side = root.x < 0.0f ? -1.0f : 1.0f,
-                    turn = is_leg ? -std::atan((std::abs(end.x) - kAnkles_m) / (root.y - end.y))
-                                  : std::atan2(root.y - end.y, std::abs(end.x - root.x));
-        return Limb{root, side * turn, is_leg, shares(model, topology_, model.rig_bone(from))};
+    const auto limb = [&](int from, int to) {
+        return LimbSkin{joint(from), joint(to), shares(model, topology_, model.rig_bone(from))};
     };
-    limbs_ = {limb(VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_FOOT, true),
-              limb(VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_FOOT, true),
-              limb(VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_HAND, false),
-              limb(VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_HAND, false)};
+    limbs_ = {limb(VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT),
+              limb(VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT),
+              limb(VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_LEFT_HAND),
+              limb(VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_RIGHT_HAND),
+              limb(VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG),
+              limb(VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG),
+              limb(VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM),
+              limb(VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM)};
 }
 
 Vec3 CookBody::joint(int humanoid_bone) const {
@@ -78,14 +83,41 @@ std::vector<Vec3> CookBody::leaving(const Stance& stance, float share) const {
     const float thickness = glm::mix(stance.thickness, 1.0f, share);
     std::vector<Vec3> out(bones_.size());
     for (size_t v = 0; v < out.size(); ++v) out[v] = glm::mix(bones_[v], evaluated_.positions[v], thickness);
-    for (const Limb& limb : limbs_) {
-        if (!(limb.is_leg ? stance.legs_together : stance.arms_level)) continue;
-        const Quat turn = glm::angleAxis((1.0f - share) * limb.turn_rad, Vec3(0, 0, 1));
+    for (size_t l = 0; l < kLimbs; ++l) {
+        if (stance.turned[l] == kAtRest) continue;
+        const LimbSkin& limb = limbs_[l];
+        const Quat turn = glm::slerp(stance.turned[l], kAtRest, share);
         for (size_t v = 0; v < out.size(); ++v)
             if (limb.share[v] > 0.0f)
                 out[v] = glm::mix(out[v], limb.root + turn * (out[v] - limb.root), limb.share[v]);
     }
     return out;
+}
+
+Vec3 CookBody::carried(const Stance& stance, Limb limb, const Vec3& place) const {
+    const Vec3 out = root(limb) + stance.of(limb) * (place - root(limb));
+    const auto on = parent(limb);
+    return on ? carried(stance, *on, out) : out;
+}
+
+void CookBody::put_legs_together(Stance& stance) const {
+    constexpr float kAnkles_m = 0.08f;  // from the middle
+    for (const auto& [leg, shank] :
+         {std::pair(Limb::left_leg, Limb::left_shank), std::pair(Limb::right_leg, Limb::right_shank)}) {
+        const Vec3 &hip = root(leg), &ankle = end(shank);
+        const float side = hip.x < 0.0f ? -1.0f : 1.0f,
+                    turn = -std::atan((std::abs(ankle.x) - kAnkles_m) / (hip.y - ankle.y));
+        stance.of(leg) = glm::angleAxis(side * turn, Vec3(0, 0, 1));
+    }
+}
+
+void CookBody::hold_arms_level(Stance& stance) const {
+    for (const auto& [arm, forearm] :
+         {std::pair(Limb::left_arm, Limb::left_forearm), std::pair(Limb::right_arm, Limb::right_forearm)}) {
+        const Vec3 along = end(forearm) - root(arm);
+        const float side = root(arm).x < 0.0f ? -1.0f : 1.0f;
+        stance.of(arm) = glm::angleAxis(side * std::atan2(-along.y, std::abs(along.x)), Vec3(0, 0, 1));
+    }
 }
 
 }  // namespace vfit

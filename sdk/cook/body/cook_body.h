@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "body/shape_setting.h"
@@ -10,12 +11,28 @@
 
 namespace vfit {
 
+/// What turns about a joint; those that hang on another one stand before it.
+enum class Limb : uint8_t {
+    left_shank,
+    right_shank,
+    left_forearm,
+    right_forearm,
+    left_leg,
+    right_leg,
+    left_arm,
+    right_arm,
+};
+inline constexpr size_t kLimbs = 8;
+
 /// How a body stands while a garment is put on.
 struct Stance {
-    float thickness = 1.0f;  // share about its bones; 0.2 at least: thinner, the skin would fold into itself
-    bool legs_together = false;  // for skirts
-    bool arms_level = false;     // for what has no sleeves
-    bool is_rest() const { return thickness == 1.0f && !legs_together && !arms_level; }
+    float thickness;  // share about its bones; 0.2 at least: thinner, the skin would fold into itself
+    // Of each limb about its root, from the body's own posture; a limb that hangs on another turns first.
+    std::array<Quat, kLimbs> turned;
+    explicit Stance(float thick = 1.0f) : thickness(thick) { turned.fill(Quat(1, 0, 0, 0)); }
+    Quat& of(Limb limb) { return turned[size_t(limb)]; }
+    const Quat& of(Limb limb) const { return turned[size_t(limb)]; }
+    bool is_rest() const;
 };
 
 class CookBody {
@@ -33,8 +50,19 @@ public:
     const MeshQuery& skin() const { return skin_; }
     const BodyOutline& outline() const { return outline_; }
     Vec3 joint(int humanoid_bone) const;
+    /// The joint where that limb begins, and its elbow, wrist, knee or ankle where it ends.
+    const Vec3& root(Limb limb) const { return limbs_[size_t(limb)].root; }
+    const Vec3& end(Limb limb) const { return limbs_[size_t(limb)].end; }
+    /// The limb that it hangs on: of forearms and shanks.
+    static std::optional<Limb> parent(Limb limb) {
+        return limb < Limb::left_leg ? std::optional(Limb(uint8_t(limb) + 4)) : std::nullopt;
+    }
     /// Its vertices on its way from a stance (0) to its own thickness and posture (1).
     std::vector<Vec3> leaving(const Stance& stance, float share) const;
+    /// Where a place of the body's own posture is in a stance, carried by that limb.
+    Vec3 carried(const Stance& stance, Limb limb, const Vec3& place) const;
+    void put_legs_together(Stance& stance) const;  // for skirts
+    void hold_arms_level(Stance& stance) const;    // for what has no sleeves
 
 private:
     const BodyModel& model_;
@@ -45,13 +73,11 @@ private:
     MeshQuery skin_;
     BodyOutline outline_;
     std::vector<Vec3> bones_;  // of each vertex, its place among the bones that carry it
-    struct Limb {
-        Vec3 root;       // joint
-        float turn_rad;  // about Z, for legs together or arms level
-        bool is_leg;
+    struct LimbSkin {
+        Vec3 root, end;
         std::vector<float> share;  // of it in each vertex
     };
-    std::array<Limb, 4> limbs_;
+    std::array<LimbSkin, kLimbs> limbs_;
 };
 
 }  // namespace vfit

@@ -1,5 +1,4 @@
-// Makes a modelled garment whole: one surface of cloth, of which each side is of two triangles or of the
-// border.
+// Makes a piece of a model whole: one surface of cloth, in its own lengths.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +6,7 @@
 #include <vector>
 
 #include "cloth/garment/garment.h"
-#include "cook/model/model.h"
+#include "cook/model/pieces.h"
 
 namespace vfit {
 
@@ -24,9 +23,7 @@ struct Surface {
     float length_of(const std::vector<uint32_t>& opening) const;
 };
 
-/// unit_m: of the positions. Vertices at one place become one; polygons are cut into triangles; pieces of a
-/// few triangles that are not joined to the others (buttons) are left out; holes that are no openings are
-/// closed; triangles are turned the same way. VFIT_ERROR_DATA says what is no garment's mesh, and where.
-Surface make_surface(const Model& model, float unit_m);
+/// Holes that are no openings are closed. VFIT_ERROR_DATA says what is no cloth, and where.
+Surface make_surface(const Pieces& pieces, const Piece& piece);
 
 }  // namespace vfit

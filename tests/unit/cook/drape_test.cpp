@@ -110,7 +110,7 @@ TEST_F(Cooking, ASpecificationThatTellsOfNobodyIsTriedOnBoth) {
     if (shared.empty()) GTEST_SKIP() << "no shared/data/patterns";
     CookRequest request;
     request.path = shared + "/sundress_f/sundress_f_specification.json";
-    EXPECT_EQ(cook_file(*model, fabrics, request, *jobs).garment.body_sex, VFIT_SEX_FEMALE);
+    EXPECT_EQ(cook_file(*model, fabrics, request, *jobs).front().garment.body_sex, VFIT_SEX_FEMALE);
 }
 
 TEST_F(Cooking, ASeamThatCannotCloseIsNamed) {
@@ -129,7 +129,7 @@ TEST_F(Cooking, DrapesEveryShippedDesign) {
         SCOPED_TRACE(name);
         CookRequest request;
         request.path = design_path(name);
-        const CookedGarment cooked = cook_file(*model, fabrics, request, *jobs);
+        const CookedGarment cooked = std::move(cook_file(*model, fabrics, request, *jobs).front());
         const Garment& garment = cooked.garment;
         EXPECT_EQ(garment.name, name) << "it is opened by the name of its file";
         EXPECT_GT(garment.simulated_count(), garment.vertex_count() / 2);
@@ -156,7 +156,7 @@ TEST_F(Cooking, DrapesRealSpecifications) {
         CookRequest request;
         request.path = shared + "/" + name + "/" + name + "_specification.json";
         request.sex = sex;
-        const CookedGarment cooked = cook_file(*model, fabrics, request, *jobs);
+        const CookedGarment cooked = std::move(cook_file(*model, fabrics, request, *jobs).front());
         EXPECT_EQ(cooked.garment.name, name);
         EXPECT_EQ(cooked.report.hangs_on, hangs_on) << name;
         EXPECT_EQ(cooked.report.skin_crossings, 0u) << name;

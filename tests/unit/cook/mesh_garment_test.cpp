@@ -49,7 +49,7 @@ protected:
     }
     CookedGarment cook(const std::string& name, const std::string& bytes,
                        vfit_sex sex = VFIT_SEX_FEMALE) const {
-        return cook_file(*model, fabrics, request_of(write(name, bytes), sex), *jobs);
+        return std::move(cook_file(*model, fabrics, request_of(write(name, bytes), sex), *jobs).front());
     }
 
     std::filesystem::path folder;
@@ -121,6 +121,7 @@ TEST_F(MeshGarment, ATubeBecomesASkirtOnTheWaist) {
 TEST_F(MeshGarment, AShirtOfOursReadsBackInBothFormats) {
     const Garment shirt =
         cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/shirt_men.json"), *jobs)
+            .front()
             .garment;
     std::vector<Vec3> drawn = shirt.mesh.positions;
     for (const uint32_t v : shirt.copies) drawn.push_back(shirt.mesh.positions[v]);
@@ -162,7 +163,7 @@ TEST_F(MeshGarment, ComesToItsPlaceFromAnotherBodys) {
     EXPECT_EQ(raised.report.skin_crossings, 0u);
     // The men's waistcoat that was a women's: what lay within comes out.
     const Garment vest =
-        cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/vest.json"), *jobs).garment;
+        cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/vest.json"), *jobs).front().garment;
     std::vector<Vec3> forward = vest.mesh.positions;
     for (Vec3& p : forward) p.z += 0.1f;
     const CookedGarment mens =
@@ -198,13 +199,15 @@ TEST_F(MeshGarment, CountsInTheUnitThatIsSaid) {
     tube.unit = 100.0f;
     CookRequest request = request_of(write("cm.obj", obj_of(tube)));
     request.unit_m = 0.01f;
-    const Garment g = cook_file(*model, fabrics, request, *jobs).garment;
+    const Garment g = cook_file(*model, fabrics, request, *jobs).front().garment;
     const std::vector<float> a = side_lengths(g.cut_shape, g.mesh.indices);
     EXPECT_NEAR(a.back(), side_lengths(TubeMesh().positions(), TubeMesh().triangles()).back(), 1e-4f);
 }
 
 Surface surface_of(const std::string& obj, float unit_m = 1.0f) {
-    return make_surface(read_obj(obj, Beside()), unit_m);
+    const Model model = read_obj(obj, Beside());
+    const Pieces pieces = make_pieces(model, unit_m);
+    return make_surface(pieces, pieces.list.front());
 }
 
 std::string refusal_of(const std::string& obj, float unit_m = 1.0f) {

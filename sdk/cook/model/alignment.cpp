@@ -1,0 +1,464 @@
+#include "cook/model/alignment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "cook/drape/upper_edge.h"
+#include "core/error.h"
+#include "geometry/borders.h"
+#include "geometry/section.h"
+#include "math/quaternion.h"
+
+namespace vfit {
+
+namespace {
+
+struct Unit {
+    const char* name;
+    const char* option;
+    float metres;
+};
+constexpr std::array<Unit, 6> kUnits = {{{"metres", "m", 1.0f},
+                                         {"centimetres", "cm", 0.01f},
+                                         {"millimetres", "mm", 0.001f},
+                                         {"decimetres", "dm", 0.1f},
+                                         {"inches", "in", 0.0254f},
+                                         {"feet", "ft", 0.3048f}}};
+constexpr float kSmallest_m = 0.1f, kLargest_m = 3.0f;  // garments, from a baby's sock to a train
+// A garment's girth over the body's where it is closest: of stretch fabrics it is less than one.
+constexpr float kTight = 0.72f, kLoose = 2.0f, kUsual = 1.15f;
+
+float largest_extent(const Model& model) {
+    Vec3 low(INFINITY), high(-INFINITY);
+    for (const ModelCorner& corner : model.corners) {
+        low = glm::min(low, model.positions[corner.position]);
+        high = glm::max(high, model.positions[corner.position]);
+    }
+    const Vec3 size = high - low;
+    return std::max({size.x, size.y, size.z});
+}
+bool is_garments(float size_m) { return size_m >= kSmallest_m && size_m <= kLargest_m; }
+
+struct Box {
+    Vec3 low{INFINITY}, high{-INFINITY};
+    void add(const Vec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
+    Vec3 middle() const { return 0.5f * (low + high); }
+};
+
+/// Garments stand in one place but for a little.
+float only_if_far(float metres) {
+    constexpr float kFar_m = 0.03f;
+    return std::abs(metres) > kFar_m ? metres : 0.0f;
+}
+
+float middle_of(std::vector<float>& list) {
+    const size_t at = list.size() / 2;
+    std::nth_element(list.begin(), list.begin() + std::ptrdiff_t(at), list.end());
+    return list[at];
+}
+
+/// The cloth turned and scaled, before it is moved to the body.
+class Candidate {
+public:
+    Candidate(const Pieces& pieces, const CookBody& body, float scale, const Mat3& turn)
+        : body_(body), places_(pieces.places) {
+        for (Vec3& p : places_) p = turn * (scale * p);
+        for (const Piece& piece : pieces.list) {
+            indices_.insert(indices_.end(), piece.indices.begin(), piece.indices.end());
+            openings_.insert(openings_.end(), piece.openings.begin(), piece.openings.end());
+            for (const uint32_t v : piece.indices) box_.add(places_[v]);
+        }
+        cloth_.emplace(places_, indices_);
+        const float x = box_.middle().x;
+        x_ = only_if_far(x);
+    }
+
+    const MeshQuery& cloth() const { return *cloth_; }
+    const std::vector<Vec3>& places() const { return places_; }
+    const std::vector<std::vector<uint32_t>>& openings() const { return openings_; }
+
+    /// What brings the cloth over the shoulders onto the body's, from that share of the way to the joint:
+    /// further in there may be a hood. None where there is no such cloth on both sides.
+    std::optional<Vec3> by_shoulders(float inner, float thickness_m) const {
+        constexpr float kSlope_m = 0.08f, kAnywhere_m = 0.3f, kStep_m = 0.01f, kSame_m = 0.03f;
+        const BodyOutline& outline = body_.outline();
+        const Vec3 joint = outline.left_shoulder();
+        const float lowest = 0.5f * (outline.levels().waist + outline.levels().shoulder);
+        Box top;
+        constexpr float kTop = 0.3f;
+        for (const uint32_t v : indices_)
+            if (places_[v].y > glm::mix(box_.high.y, box_.low.y, kTop)) top.add(places_[v]);
+        std::vector<float> raise;
+        float forward = 0.0f;
+        for (const float side : {-1.0f, 1.0f}) {
+            std::vector<std::pair<Vec3, Vec3>> ridges;  // of cloth and body
+            float highest = -INFINITY;
+            for (float x = inner * joint.x; x < joint.x; x += kStep_m) {
+                const Vec3 above(x_ + side * x, box_.high.y + kStep_m, top.middle().z);
+                const auto cloth = ridge(*cloth_, above, kAnywhere_m),
+                           body = outline.shoulder_ridge(side * x);
+                if (!cloth || !body || body->y < lowest) continue;
+                ridges.emplace_back(*cloth, *body);
+                highest = std::max(highest, cloth->y);
+            }
+            if (ridges.empty()) return std::nullopt;
+            // Beyond the shoulder's end the highest is the chest, or a sleeve.
+            for (const auto& [cloth, body] : ridges) {
+                if (cloth.y < highest - kSlope_m) continue;
+                raise.push_back(body.y + thickness_m - cloth.y);
+                forward += body.z - cloth.z;
+            }
+        }
+        forward /= float(raise.size());
+        // The median: shoulders slope as they like, and beside a strap there is a neckline.
+        const float raised = middle_of(raise);
+        const auto same = std::count_if(raise.begin(), raise.end(),
+                                        [&](float r) { return std::abs(r - raised) < kSame_m; });
+        if (2 * size_t(same) < raise.size()) return std::nullopt;
+        return Vec3(-x_, raised, only_if_far(forward));
+    }
+
+    /// By its crotch, and by its upper edge: to where the body about fills it.
+    std::optional<Vec3> by_waist(bool may_stay) const {
+        const BodyOutline& outline = body_.outline();
+        const TailorLevels& levels = outline.levels();
+        Box top;
+        constexpr float kTop = 0.15f;
+        for (const uint32_t v : indices_)
+            if (places_[v].y > glm::mix(box_.high.y, box_.low.y, kTop)) top.add(places_[v]);
+        Vec3 moved(-x_, 0.0f, only_if_far(outline.axis_z() - top.middle().z));
+        std::vector<Vec3> there = places_;
+        for (Vec3& p : there) p += moved;
+        const std::vector<uint32_t> edge = upper_edge(there, openings_, outline.axis_z());
+        if (edge.empty()) return std::nullopt;
+        float front = -INFINITY, back = INFINITY;
+        for (const uint32_t v : edge) front = std::max(front, there[v].z), back = std::min(back, there[v].z);
+        moved.z += only_if_far(outline.axis_z() - 0.5f * (front + back));
+        const float own = mean_height(places_, edge);
+        constexpr float kAboveWaist_m = 0.12f;
+        const bool stands_there =
+            may_stay && moved.x == 0.0f && own > levels.hip && own < levels.shoulder;
+        if (stands_there && own > levels.waist + kAboveWaist_m) return moved;
+        const auto crotch = crotch_raise(moved);
+        // Without a place of its own it is one that its crotch tells, or its narrowest girth.
+        float from = own;
+        if (crotch)
+            from = own + *crotch;
+        else if (!stands_there)
+            from = own + levels.waist - narrowest(own);
+        if (!crotch && !stands_there && from > levels.waist + kAboveWaist_m)
+            moved.y = from - own;
+        else
+            moved.y = sits_at(edge, from) - own;
+        if (crotch) moved.y = std::min(moved.y, *crotch);
+        return moved;
+    }
+
+    /// Limbs follow sleeves and legs.
+    Stance stance(const Vec3& moved) const {
+        Stance out;
+        for (const auto& [limb, lower] :
+             {std::pair(Limb::left_arm, Limb::left_forearm), std::pair(Limb::right_arm, Limb::right_forearm),
+              std::pair(Limb::left_leg, Limb::left_shank), std::pair(Limb::right_leg, Limb::right_shank)})
+            follow(limb, lower, moved, out);
+        return out;
+    }
+
+private:
+    /// The nearest height to `own`, between hips and waist, at which the body about fills the opening. One
+    /// that is wider than the hips is worn at the waist, with a belt.
+    float sits_at(const std::vector<uint32_t>& edge, float own) const {
+        const TailorLevels& levels = body_.outline().levels();
+        const float around = length_around(places_, edge);
+        constexpr float kStep_m = 0.005f, kStretched_m = 0.02f,
+                        kFilled = 0.85f;  // stretched around by so much; filled by so much
+        float best = levels.waist, least = INFINITY;
+        for (float y = levels.waist; y > levels.hip; y -= kStep_m) {
+            const float girth = body_.outline().at(y).perimeter();
+            if (girth > around + kStretched_m || girth < kFilled * around || std::abs(y - own) >= least)
+                continue;
+            least = std::abs(y - own);
+            best = y;
+        }
+        // Between two steps it stays where it is.
+        return least < kStep_m ? own : best;
+    }
+
+    /// Height at which the cloth is narrowest, at its upper edge or in the trunk's length below.
+    float narrowest(float top) const {
+        constexpr float kTrunk_m = 0.35f, kStep_m = 0.02f, kBelowEdge_m = 0.03f, kWaisted = 0.95f;
+        float best = top, least = INFINITY;
+        for (float y = top - kBelowEdge_m; y > std::max(top - kTrunk_m, box_.low.y); y -= kStep_m) {
+            const Section section = cut(places_, indices_, Vec3(0, y, 0), Vec3(0, 1, 0));
+            const float girth = hull_perimeter(section.points());
+            if (girth <= 0.0f) continue;
+            if (least == INFINITY)
+                least = kWaisted * girth;
+            else if (girth < least)
+                least = girth, best = y;
+        }
+        return best;
+    }
+
+    /// What brings its crotch below the body's; none where there are no legs.
+    std::optional<float> crotch_raise(const Vec3& moved) const {
+        constexpr float kBelow_m = 0.02f, kAside_m = 0.06f, kStep_m = 0.01f, kFar_m = 8.0f;
+        const auto lowest = [&](const MeshQuery& mesh, const Vec3& from) {
+            std::optional<float> out;
+            for (float z = -kAside_m; z <= kAside_m; z += kStep_m)
+                if (const auto hit = mesh.cast(from + Vec3(0, 0, z), {0, 1, 0}, kFar_m))
+                    out = std::min(out.value_or(INFINITY), from.y + hit->distance);
+            return out;
+        };
+        const float axis_z = body_.outline().axis_z();
+        const auto cloth = lowest(*cloth_, {x_, box_.low.y - kStep_m, axis_z - moved.z}),
+                   body = lowest(body_.skin(), {0.0f, -kStep_m, axis_z});
+        if (!cloth || !body) return std::nullopt;
+        return *body - kBelow_m - *cloth;
+    }
+
+    /// The opening by which a limb leaves the cloth: of those that lie on its side of the body alone, that
+    /// which is furthest out, or down.
+    const std::vector<uint32_t>* end_of(Limb limb, const Vec3& moved) const {
+        constexpr float kLeast_m = 0.12f, kMiddle_m = 0.02f;
+        const bool is_arm = limb == Limb::left_arm || limb == Limb::right_arm;
+        const float side = body_.root(limb).x < 0.0f ? -1.0f : 1.0f;
+        const TailorLevels& levels = body_.outline().levels();
+        const std::vector<uint32_t>* best = nullptr;
+        float furthest = -INFINITY;
+        for (const auto& opening : openings_) {
+            if (length_around(places_, opening) < kLeast_m) continue;
+            if (std::any_of(opening.begin(), opening.end(), [&](uint32_t v) {
+                    return side * (places_[v].x + moved.x) < kMiddle_m;
+                }))
+                continue;
+            const Vec3 at = centre(opening) + moved;
+            if (is_arm ? at.y < levels.hip - 0.1f : at.y > levels.hip) continue;
+            const float far_out = is_arm ? side * at.x : -at.y;
+            if (far_out > furthest) furthest = far_out, best = &opening;
+        }
+        return best;
+    }
+    Vec3 centre(const std::vector<uint32_t>& opening) const {
+        Vec3 sum(0.0f);
+        float length = 0.0f;
+        for (size_t i = 0; i < opening.size(); ++i) {
+            const Vec3 &a = places_[opening[i]], &b = places_[opening[(i + 1) % opening.size()]];
+            sum += glm::length(b - a) * 0.5f * (a + b), length += glm::length(b - a);
+        }
+        return length > 0.0f ? sum / length : sum;
+    }
+
+    /// The middle of the sleeve about that place, square to its length.
+    std::optional<Vec3> middle_at(const Vec3& place, const Vec3& along) const {
+        constexpr float kReach_m = 0.2f;
+        const Section section = cut(places_, indices_, place, along);
+        const std::vector<Vec2>* best = nullptr;
+        float nearest = kReach_m;
+        for (const auto& loop : section.loops) {
+            Vec2 middle(0.0f);
+            for (const Vec2& p : loop) middle += p / float(loop.size());
+            if (const float off = glm::length(middle); off < nearest) nearest = off, best = &loop;
+        }
+        if (!best) return std::nullopt;
+        const Extent box = extent(*best);
+        return section.lift(0.5f * (box.minimum + box.maximum));
+    }
+
+    void follow(Limb limb, Limb lower, const Vec3& moved, Stance& stance) const {
+        const auto* opening = end_of(limb, moved);
+        if (!opening) return;
+        constexpr float kAtRoot_m = 0.1f, kBeyond = 0.2f, kAsOurs_rad = 0.05f;
+        const Vec3 root = body_.root(limb), joint = body_.end(limb), wrist = body_.end(lower),
+                   end = centre(*opening) + moved;
+        const float out = glm::length(end - root), upper = glm::length(joint - root),
+                    whole = upper + glm::length(wrist - joint);
+        if (out < kAtRoot_m) return;  // without sleeves
+        const Vec3 along = (end - root) / out;
+        std::optional<Vec3> elbow;
+        if (out > upper + kBeyond * (whole - upper))
+            if (const auto middle = middle_at(root + along * std::min(upper, 0.6f * out) - moved, along))
+                elbow = *middle + moved;
+        const Vec3 to_joint = elbow ? *elbow - root : end - root;
+        const Quat turn = shortest_arc(joint - root, to_joint);
+        if (angle_of(turn) > kAsOurs_rad) stance.of(limb) = turn;
+        if (!elbow) return;
+        const Vec3 now = body_.carried(stance, limb, joint);
+        const Quat bend = shortest_arc(wrist - joint, glm::conjugate(stance.of(limb)) * (end - now));
+        if (angle_of(bend) > kAsOurs_rad) stance.of(lower) = bend;
+    }
+
+    const CookBody& body_;
+    std::vector<Vec3> places_;
+    std::vector<uint32_t> indices_;
+    std::vector<std::vector<uint32_t>> openings_;
+    std::optional<MeshQuery> cloth_;
+    Box box_;
+    float x_ = 0.0f;  // its middle, where that is not the body's
+};
+
+struct Turn {
+    const char* note;
+    Mat3 matrix;
+};
+/// As written first, then as other programs write; which way odd ones face is not known.
+std::vector<Turn> turns() {
+    const auto columns = [](const Vec3& x, const Vec3& y, const Vec3& z) { return Mat3(x, y, z); };
+    return {{"", Mat3(1.0f)},
+            {"it was written with Z up", columns({1, 0, 0}, {0, 0, -1}, {0, 1, 0})},
+            {"it was written upside down", columns({-1, 0, 0}, {0, -1, 0}, {0, 0, 1})},
+            {"it was written with Z down", columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0})},
+            {"it was written with X up", columns({0, 1, 0}, {0, 0, 1}, {1, 0, 0})},
+            {"it was written with X down", columns({0, -1, 0}, {0, 0, 1}, {-1, 0, 0})}};
+}
+
+class Aligner {
+public:
+    Aligner(const Pieces& pieces, const CookBody& body, const AlignmentOptions& options)
+        : pieces_(pieces), body_(body), options_(options), probe_(body) {}
+
+    Alignment run() {
+        const std::vector<Turn> all = turns();
+        for (const Turn& turn : all) {
+            for (const Unit& unit : units()) try_out(unit.metres / pieces_.unit_m, turn, &unit);
+            if (best_ && best_->cost < kGood) break;
+        }
+        if (best_ && options_.scale == 0.0f && best_->found.girth_ratio > 0.0f &&
+            (best_->found.girth_ratio < kTight || best_->found.girth_ratio > kLoose))
+            try_out(best_->alignment.scale * kUsual / best_->found.girth_ratio, all[best_->turn], nullptr);
+        if (!best_) fail(VFIT_ERROR_DATA, "it has no edge by which it could hang on a body");
+        if (options_.stands_by != StandsBy::as_modelled) check();
+        return best_->alignment;
+    }
+
+private:
+    static constexpr float kGood = 0.8f, kOtherScale = 0.3f;  // costs
+    struct Way {
+        Alignment alignment;
+        SkeletonProbe::Found found;
+        Parted parted;
+        size_t turn;
+        float cost;
+    };
+
+    std::vector<Unit> units() const {
+        std::vector<Unit> out;
+        const float size = largest_extent(*pieces_.model);
+        for (const Unit& unit : kUnits)
+            if (options_.unit_told ? unit.metres == options_.unit_m : is_garments(size * unit.metres))
+                out.push_back(unit);
+        return out;
+    }
+
+    void try_out(float scale, const Turn& turn, const Unit* unit) {
+        if (options_.scale != 0.0f) scale *= options_.scale;
+        const Candidate candidate(pieces_, body_, scale, turn.matrix);
+        const bool as_written =
+            options_.scale == 0.0f && unit && unit->metres == options_.unit_m && turn.note[0] == 0;
+        const StandsBy by = options_.stands_by;
+        std::vector<Vec3> ways;
+        if (by == StandsBy::as_modelled) ways.emplace_back(0.0f);
+        constexpr float kNeck = 0.25f, kOuter = 0.7f;
+        if (by == StandsBy::any || by == StandsBy::shoulders)
+            for (const float inner : {kNeck, kOuter})
+                if (const auto way = candidate.by_shoulders(inner, options_.thickness_m))
+                    ways.push_back(*way);
+        if (by == StandsBy::any || by == StandsBy::waist)
+            if (const auto way = candidate.by_waist(as_written)) ways.push_back(*way);
+        for (size_t w = 0; w < ways.size(); ++w) {
+            Way way;
+            way.alignment = {scale, turn.matrix, ways[w], candidate.stance(ways[w]), {}};
+            way.found = probe_.find(candidate.cloth(), ways[w], way.alignment.stance);
+            way.parted = probe_.parted(candidate.places(), candidate.openings(), ways[w],
+                                       way.alignment.stance);
+            way.turn = 0;
+            for (const Turn& known : turns()) {
+                if (known.matrix == turn.matrix) break;
+                ++way.turn;
+            }
+            way.cost = cost(way) + 0.1f * float(w);
+            if (!unit || unit->metres != options_.unit_m) way.cost += kOtherScale;
+            if (best_ && best_->cost <= way.cost) continue;
+            note(way.alignment, turn, unit);
+            best_ = std::move(way);
+        }
+    }
+
+    float cost(const Way& way) const {
+        constexpr float kPierced = 5.0f, kRoundNothing = 30.0f, kOtherTurn = 0.5f, kNotItsKind = 10.0f, kOffSize = 4.0f;
+        float sum = kPierced * float(way.found.pierced.size());
+        if (way.parted.round_nothing()) sum += kRoundNothing;
+        if (!is_of_kind(way.parted)) sum += kNotItsKind;
+        if (way.turn > 0) sum += kOtherTurn;
+        const float ratio = way.found.girth_ratio;
+        if (ratio <= 0.0f) return sum + kOffSize;
+        if (ratio < kTight) sum += kOffSize * std::log(kTight / ratio) + 1.0f;
+        if (ratio > kLoose) sum += kOffSize * std::log(ratio / kLoose) + 1.0f;
+        return sum + 0.2f * std::abs(std::log(ratio / kUsual));
+    }
+
+    bool is_of_kind(const Parted& parted) const {
+        const std::string& kind = options_.kind;
+        if (kind == "trousers") return parted.legs_from_each_other();
+        if (kind == "overall") return parted.legs_from_each_other() && parted.over_shoulder();
+        if (kind == "skirt") return parted.legs_from_head();
+        if (kind == "shirt" || kind == "jacket" || kind == "short_sleeves" || kind == "long_sleeves")
+            return parted.over_shoulder();
+        return true;
+    }
+
+    void note(Alignment& alignment, const Turn& turn, const Unit* unit) const {
+        std::vector<std::string>& notes = alignment.notes;
+        if (turn.note[0]) notes.push_back(std::string(turn.note) + ", and was turned");
+        if (!unit || unit->metres != options_.unit_m)
+            notes.push_back(unit ? text("its numbers count in ", unit->name, " (--unit ", unit->option, ")")
+                                 : text("it was modelled on a body of another size, and was scaled by ",
+                                        std::round(alignment.scale * 1000.0f) / 1000.0f));
+    }
+
+    void check() const {
+        if (best_->parted.round_nothing())
+            fail(VFIT_ERROR_DATA,
+                 "the garment goes round nothing: neither head, arms nor legs leave it by openings of their "
+                 "own, wherever it is held on the body");
+        if (!best_->found.pierced.empty())
+            fail(VFIT_ERROR_DATA, "no place was found where the garment is worn: cloth at ",
+                 shown(best_->found.pierced_at), " m closes the way of the ", best_->found.pierced[0],
+                 best_->found.pierced.size() > 1 ? " (and others)" : "",
+                 "; is it closed there, or is it no garment for a whole body?");
+    }
+
+    const Pieces& pieces_;
+    const CookBody& body_;
+    const AlignmentOptions options_;
+    SkeletonProbe probe_;
+    std::optional<Way> best_;
+};
+
+}  // namespace
+
+float plausible_unit(const Model& model, float stated_m, bool told) {
+    const float size = largest_extent(model);
+    if (is_garments(size * stated_m)) return stated_m;
+    float best = 0.0f;
+    for (const Unit& unit : kUnits)
+        if (is_garments(size * unit.metres) &&
+            (best == 0.0f || std::abs(std::log(size * unit.metres)) < std::abs(std::log(size * best))))
+            best = unit.metres;
+    if (!told && best > 0.0f) return best;
+    std::string fitting;
+    for (const Unit& unit : kUnits)
+        if (is_garments(size * unit.metres))
+            fitting += text(fitting.empty() ? "" : ", ", unit.name, " (--unit ", unit.option, ")");
+    fail(VFIT_ERROR_DATA, "the mesh is ", size * stated_m, " m large, and garments are ", kSmallest_m, " to ",
+         kLargest_m, " m: ",
+         fitting.empty() ? std::string("the numbers fit no unit") : "the numbers may be " + fitting);
+}
+
+Alignment align(const Pieces& pieces, const CookBody& body, const AlignmentOptions& options) {
+    return Aligner(pieces, body, options).run();
+}
+
+}  // namespace vfit

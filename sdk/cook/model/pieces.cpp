@@ -1,0 +1,285 @@
+#include "cook/model/pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "cook/mesh/triangulation.h"
+#include "core/error.h"
+#include "geometry/borders.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr float kOnePlace_m = 1e-4f;  // closer than that, vertices are one
+constexpr size_t kMostVertices = 60000;
+constexpr float kLeastArea_m2 = 1e-8f;
+
+/// Vertices at one place by a grid of cells as large as the tolerance.
+class Weld {
+public:
+    uint32_t add(const Vec3& p, std::vector<Vec3>& places) {
+        const std::array<int64_t, 3> cell = {int64_t(std::floor(p.x / kOnePlace_m)),
+                                             int64_t(std::floor(p.y / kOnePlace_m)),
+                                             int64_t(std::floor(p.z / kOnePlace_m))};
+        for (int64_t x = -1; x <= 1; ++x)
+            for (int64_t y = -1; y <= 1; ++y)
+                for (int64_t z = -1; z <= 1; ++z) {
+                    const auto found = cells_.find(key(cell[0] + x, cell[1] + y, cell[2] + z));
+                    if (found == cells_.end()) continue;
+                    for (const uint32_t v : found->second)
+                        if (glm::length(places[v] - p) <= kOnePlace_m) return v;
+                }
+        const auto v = uint32_t(places.size());
+        places.push_back(p);
+        cells_[key(cell[0], cell[1], cell[2])].push_back(v);
+        return v;
+    }
+
+private:
+    static uint64_t key(int64_t x, int64_t y, int64_t z) {
+        constexpr uint64_t kMask = (1u << 21) - 1;  // places are within 100 m
+        return (uint64_t(x) & kMask) << 42 | (uint64_t(y) & kMask) << 21 | (uint64_t(z) & kMask);
+    }
+    std::unordered_map<uint64_t, std::vector<uint32_t>> cells_;
+};
+
+using Side = std::pair<uint32_t, uint32_t>;
+
+class PiecesMaker {
+public:
+    PiecesMaker(const Model& model, float unit_m) : model_(model), unit_m_(unit_m) {}
+
+    Pieces run() {
+        weld();
+        cut_polygons();
+        leave_out_copies();
+        turn_alike();
+        Pieces out{&model_, unit_m_, {}, model_.uvs, std::vector<Piece>(piece_count_), std::move(notes_)};
+        for (size_t t = 0; t < triangles_.size(); ++t) {
+            Piece& piece = out.list[pieces_[t]];
+            piece.triangles.push_back(triangles_[t]);
+            piece.indices.insert(piece.indices.end(), triangles_[t].vertex.begin(), triangles_[t].vertex.end());
+            piece.area_m2 += area_of(places_, triangles_[t]);
+        }
+        for (Piece& piece : out.list) piece.openings = borders(piece.indices);
+        std::stable_sort(out.list.begin(), out.list.end(),
+                         [](const Piece& a, const Piece& b) { return a.area_m2 > b.area_m2; });
+        out.places = std::move(places_);
+        return out;
+    }
+
+private:
+    std::string name_of(const ModelTriangle& t) const { return model_.name_of(t.face); }
+
+    void weld() {
+        // A tenth of a millimetre decides: where a model is a grain of dust, all of it is one place.
+        Weld weld;
+        vertex_of_.assign(model_.positions.size(), UINT32_MAX);
+        for (const ModelCorner& corner : model_.corners) {
+            uint32_t& v = vertex_of_[corner.position];
+            if (v == UINT32_MAX) v = weld.add(model_.positions[corner.position] * unit_m_, places_);
+            if (places_.size() > kMostVertices) {
+                std::set<uint32_t> used;
+                for (const ModelCorner& c : model_.corners) used.insert(c.position);
+                fail(VFIT_ERROR_DATA, "the mesh has ", used.size(), " vertices, a garment at most ",
+                     kMostVertices, " at places of their own: make it coarser");
+            }
+        }
+    }
+
+    void cut_polygons() {
+        for (uint32_t f = 0; f < model_.faces.size(); ++f) {
+            const ModelFace& face = model_.faces[f];
+            std::vector<ModelCorner> corners;
+            for (uint32_t i = 0; i < face.corner_count; ++i) {
+                const ModelCorner& corner = model_.corners[face.first_corner + i];
+                const uint32_t v = vertex_of_[corner.position];
+                if (corners.empty() || corners.back().position != v) corners.push_back({v, corner.uv});
+            }
+            while (corners.size() > 1 && corners.front().position == corners.back().position)
+                corners.pop_back();
+            if (corners.size() < 3) {
+                if (collapsed_++ == 0) first_collapsed_ = f;
+                continue;
+            }
+            for (const auto& t : corners.size() == 3 ? Triangles{{0, 1, 2}} : cut_polygon(corners, f))
+                triangles_.push_back(
+                    {{corners[t[0]].position, corners[t[1]].position, corners[t[2]].position},
+                     {corners[t[0]].uv, corners[t[1]].uv, corners[t[2]].uv},
+                     f});
+        }
+        if (collapsed_ > 0)
+            notes_.push_back(text(
+                collapsed_, " faces are left out whose corners lie at one place or two, the first of them ",
+                model_.name_of(first_collapsed_)));
+    }
+
+    Triangles cut_polygon(const std::vector<ModelCorner>& corners, uint32_t face) const {
+        Vec3 normal(0.0f), middle(0.0f);  // Newell's normal: of any polygon
+        const size_t count = corners.size();
+        for (size_t i = 0; i < count; ++i) {
+            const Vec3 &a = places_[corners[i].position], &b = places_[corners[(i + 1) % count].position];
+            normal += glm::cross(a - places_[corners[0].position], b - places_[corners[0].position]);
+            middle += a / float(count);
+        }
+        const float area2 = glm::length(normal);
+        if (!(area2 > kLeastArea_m2))
+            fail(VFIT_ERROR_DATA, model_.name_of(face),
+                 " has no area: its corners lie on a line, or it crosses itself");
+        normal /= area2;
+        const Vec3 across = glm::normalize(std::abs(normal.x) < 0.8f ? glm::cross(normal, Vec3(1, 0, 0))
+                                                                     : glm::cross(normal, Vec3(0, 1, 0)));
+        const Vec3 up = glm::cross(normal, across);
+        std::vector<Vec2> flat;
+        float off = 0.0f, size = 0.0f;
+        for (const ModelCorner& corner : corners) {
+            const Vec3 p = places_[corner.position] - middle;
+            flat.emplace_back(glm::dot(p, across), glm::dot(p, up));
+            off = std::max(off, std::abs(glm::dot(p, normal)));
+            size = std::max(size, glm::length(p));
+        }
+        // A square may be bent; where a polygon of many corners is, how it is cut would be up to us.
+        constexpr float kOffPlane = 0.25f;
+        if (count > 4 && off > kOffPlane * size)
+            fail(VFIT_ERROR_DATA, model_.name_of(face), " has ", count,
+                 " corners that are not in a plane: cut it into triangles");
+        const auto refuse = [&] {
+            fail(VFIT_ERROR_DATA, model_.name_of(face),
+                 " crosses itself or comes to one corner twice (around a hole?): cut it into triangles");
+        };
+        Triangles triangles;
+        try {
+            triangles = triangulate(flat, uint32_t(count));
+        } catch (const Error&) {
+            refuse();
+        }
+        // Of a line that crosses itself some parts count against others.
+        float sum2 = 0.0f;
+        for (const auto& t : triangles) {
+            const Vec2 a = flat[t[1]] - flat[t[0]], b = flat[t[2]] - flat[t[0]];
+            sum2 += a.x * b.y - a.y * b.x;
+        }
+        constexpr float kSame = 1e-3f;
+        if (triangles.size() != count - 2 || std::abs(sum2 - area2) > kSame * area2) refuse();
+        return triangles;
+    }
+
+    /// Models with two sides have each triangle twice.
+    void leave_out_copies() {
+        std::set<std::array<uint32_t, 3>> known;
+        size_t copies = 0;
+        std::vector<ModelTriangle> kept;
+        for (const ModelTriangle& t : triangles_) {
+            std::array<uint32_t, 3> sorted = t.vertex;
+            std::sort(sorted.begin(), sorted.end());
+            if (sorted[0] == sorted[1] || sorted[1] == sorted[2])
+                fail(VFIT_ERROR_DATA, name_of(t), " comes to one corner twice: cut it into triangles");
+            if (known.insert(sorted).second)
+                kept.push_back(t);
+            else
+                ++copies;
+        }
+        triangles_ = std::move(kept);
+        if (triangles_.size() > 3 * kMostVertices)
+            fail(VFIT_ERROR_DATA, "the mesh has ", triangles_.size(), " triangles, a garment at most ",
+                 3 * kMostVertices, ": make it coarser");
+        if (copies > 0) notes_.push_back(text(copies, " triangles are left out that are there twice"));
+    }
+
+    /// Neighbours run along their common side in opposite directions; pieces_ becomes the piece of each
+    /// triangle.
+    void turn_alike() {
+        std::map<Side, std::vector<uint32_t>> beside;  // by its lower and higher end; triangles
+        for (uint32_t t = 0; t < triangles_.size(); ++t)
+            for (uint32_t k = 0; k < 3; ++k)
+                beside[std::minmax(triangles_[t].vertex[k], triangles_[t].vertex[(k + 1) % 3])].push_back(t);
+        for (const auto& [side, list] : beside) {
+            if (list.size() < 3) continue;
+            std::string names;
+            for (size_t i = 0; i < std::min<size_t>(list.size(), 4); ++i)
+                names += (i > 0 ? ", " : "") + name_of(triangles_[list[i]]);
+            fail(VFIT_ERROR_DATA, "the side from ", shown(places_[side.first]), " to ",
+                 shown(places_[side.second]), " is of ", list.size(), " triangles (", names,
+                 "): cloth has two beside a side; part what is joined there");
+        }
+        const auto runs = [&](uint32_t t, const Side& side) {
+            for (size_t k = 0; k < 3; ++k)
+                if (triangles_[t].vertex[k] == side.first && triangles_[t].vertex[(k + 1) % 3] == side.second)
+                    return true;
+            return false;
+        };
+        pieces_.assign(triangles_.size(), UINT32_MAX);
+        std::vector<uint8_t> turned(triangles_.size(), 0);
+        size_t mended = 0;
+        for (uint32_t first = 0; first < triangles_.size(); ++first) {
+            if (pieces_[first] != UINT32_MAX) continue;
+            std::vector<uint32_t> piece{first};
+            pieces_[first] = piece_count_;
+            size_t turned_over = 0;
+            for (size_t i = 0; i < piece.size(); ++i) {
+                const uint32_t t = piece[i];
+                for (size_t k = 0; k < 3; ++k) {
+                    const Side side = std::minmax(triangles_[t].vertex[k], triangles_[t].vertex[(k + 1) % 3]);
+                    for (const uint32_t other : beside[side]) {
+                        if (other == t) continue;
+                        const bool wanted = turned[t] != uint8_t(runs(t, side) == runs(other, side));
+                        if (pieces_[other] == UINT32_MAX) {
+                            pieces_[other] = piece_count_;
+                            turned[other] = wanted;
+                            turned_over += wanted;
+                            piece.push_back(other);
+                        } else if (bool(turned[other]) != wanted) {
+                            fail(VFIT_ERROR_DATA, "the cloth has no outside: around the side from ",
+                                 shown(places_[side.first]), " to ", shown(places_[side.second]), " (",
+                                 name_of(triangles_[t]), " and ", name_of(triangles_[other]),
+                                 ") its outside becomes its inside");
+                        }
+                    }
+                }
+            }
+            // As most of them were.
+            const bool other_way = 2 * turned_over > piece.size();
+            for (const uint32_t t : piece) turned[t] = uint8_t(bool(turned[t]) != other_way);
+            mended += other_way ? piece.size() - turned_over : turned_over;
+            ++piece_count_;
+        }
+        for (uint32_t t = 0; t < triangles_.size(); ++t) {
+            if (!turned[t]) continue;
+            std::swap(triangles_[t].vertex[1], triangles_[t].vertex[2]);
+            std::swap(triangles_[t].uv[1], triangles_[t].uv[2]);
+        }
+        if (mended > 0)
+            notes_.push_back(
+                text(mended, " triangles were turned the other way round, as those beside them are"));
+    }
+
+    const Model& model_;
+    float unit_m_;
+    std::vector<Vec3> places_;
+    std::vector<uint32_t> vertex_of_;  // of each of the model's positions
+    std::vector<ModelTriangle> triangles_;
+    std::vector<uint32_t> pieces_;  // of each triangle
+    uint32_t piece_count_ = 0;
+    size_t collapsed_ = 0, first_collapsed_ = 0;
+    std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+float area_of(const std::vector<Vec3>& places, const ModelTriangle& triangle) {
+    const auto& v = triangle.vertex;
+    return 0.5f * glm::length(glm::cross(places[v[1]] - places[v[0]], places[v[2]] - places[v[0]]));
+}
+
+std::string shown(const Vec3& place) {
+    const auto rounded = [](float x) { return std::round(x * 1000.0f) / 1000.0f; };
+    return text("(", rounded(place.x), ", ", rounded(place.y), ", ", rounded(place.z), ")");
+}
+
+Pieces make_pieces(const Model& model, float unit_m) { return PiecesMaker(model, unit_m).run(); }
+
+}  // namespace vfit

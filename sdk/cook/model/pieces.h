@@ -1,0 +1,48 @@
+// A model's triangles, joined where they meet, in the pieces that hang together.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cook/model/model.h"
+
+namespace vfit {
+
+struct ModelTriangle {
+    std::array<uint32_t, 3> vertex, uv;  // uv: kNoUv where there is none
+    uint32_t face;                       // of the model
+};
+
+/// Each side is of two triangles, turned the same way, or of the border.
+struct Piece {
+    std::vector<ModelTriangle> triangles;
+    std::vector<uint32_t> indices;
+    std::vector<std::vector<uint32_t>> openings;  // vertices around each
+    float area_m2 = 0.0f;
+};
+
+struct Pieces {
+    const Model* model;
+    float unit_m;  // of the model's numbers
+    std::vector<Vec3> places;  // metres
+    std::vector<Vec2> uvs;
+    std::vector<Piece> list;         // the largest first
+    std::vector<std::string> notes;  // of what was mended or left out
+
+    std::string material_of(const Piece& piece) const {
+        return model->material_of(piece.triangles.front().face);
+    }
+    std::string name_of(const Piece& piece) const { return model->name_of(piece.triangles.front().face); }
+};
+
+/// unit_m: of the positions. Vertices at one place become one; polygons are cut into triangles, which are
+/// turned the same way. VFIT_ERROR_DATA says what is no garment's mesh, and where. model must outlive them.
+Pieces make_pieces(const Model& model, float unit_m);
+
+float area_of(const std::vector<Vec3>& places, const ModelTriangle& triangle);
+/// "(0.1, 1.2, 0)".
+std::string shown(const Vec3& place);
+
+}  // namespace vfit
