@@ -169,7 +169,7 @@ vfit_result vfit_cloth_fit_map(vfit_cloth handle, float* values, uint32_t count)
         const uint32_t drawn_count = cloth->worn.garment().drawn_count();
         if (count != drawn_count)
             fail(VFIT_ERROR_ARGUMENT, "count is ", count, ", the garment has ", drawn_count, " vertices");
-        cloth->write_drawn(cloth->worn.tightness(), values, [](float x) { return x; });
+        cloth->write_drawn(cloth->worn.tightness(), values);
         return VFIT_OK;
     });
 }

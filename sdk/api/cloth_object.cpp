@@ -14,7 +14,7 @@ ClothObject::ClothObject(Ref<AvatarObject> avatar_object, Ref<GarmentObject> gar
       output(*context),
       set_(std::make_shared<ClothSet>(context)) {
     output.topology().set_indices(worn.garment().drawn_indices(), context->axes);
-    output.topology().set_uvs(worn.garment().mesh.uvs, context->axes);
+    output.topology().set_uvs(worn.garment().drawn_uvs(), context->axes);
     next_ = output.begin();
     publish_step();
 }
@@ -177,16 +177,45 @@ void ClothObject::pass(const Ref<PropObject>& prop) {
     if (worn.pass(prop->prop)) std::erase(props_, prop);
 }
 
-void ClothObject::publish(const FinishedStep::Reskinned& mesh, int64_t time_ns, Ref<Frame> frame) {
-    const Garment& drawn = worn.garment();
-    const MeshOutput::Vertices vertices = output.add_vertices(*frame, drawn.drawn_count(), time_ns);
+void ClothObject::write_mesh(const FinishedStep::Reskinned& mesh, const MeshOutput::Vertices& to) const {
+    const Garment& clothing = worn.garment();
     const Axes& axes = context->axes;
-    write_drawn(mesh.positions, vertices.positions, [&](const Vec3& p) { return axes.point_out(p); });
-    write_drawn(mesh.normals, vertices.normals, [&](const Vec3& n) { return axes.direction_out(n); });
+    Vec3 *position = to.positions, *normal = to.normals;
+    const auto add = [&](const Vec3& p, const Vec3& n) {
+        *position++ = axes.point_out(p);
+        *normal++ = axes.direction_out(n);
+    };
+    if (const DrawnMesh& drawn = clothing.drawn; !drawn.empty()) {
+        const CarryingMesh carrying{clothing.mesh.indices, mesh.positions, mesh.normals};
+        for (size_t i = 0; i < drawn.triangles.size(); ++i) {
+            const DrawnFrame frame(carrying, drawn.triangles[i], drawn.weights[i]);
+            add(frame.origin + frame.axes * drawn.offsets[i], frame.axes * drawn.normals[i]);
+        }
+        return;
+    }
+    for (size_t i = 0; i < mesh.positions.size(); ++i) add(mesh.positions[i], mesh.normals[i]);
+    for (const uint32_t of : clothing.copies) add(mesh.positions[of], mesh.normals[of]);
+}
+
+void ClothObject::write_drawn(const std::vector<float>& values, float* to) const {
+    const Garment& of = worn.garment();
+    if (of.drawn.empty()) {
+        to = std::copy(values.begin(), values.end(), to);
+        for (const uint32_t v : of.copies) *to++ = values[v];
+        return;
+    }
+    for (size_t i = 0; i < of.drawn.triangles.size(); ++i) {
+        const uint32_t* v = &of.mesh.indices[3 * size_t(of.drawn.triangles[i])];
+        const Vec2& w = of.drawn.weights[i];
+        *to++ = (1.0f - w.x - w.y) * values[v[0]] + w.x * values[v[1]] + w.y * values[v[2]];
+    }
+}
+
+void ClothObject::publish(const FinishedStep::Reskinned& mesh, int64_t time_ns, Ref<Frame> frame) {
+    const uint32_t count = worn.garment().drawn_count();
+    write_mesh(mesh, output.add_vertices(*frame, count, time_ns));
     const auto add = [&](vfit_stream stream, const std::vector<float>& values) {
-        write_drawn(values,
-                    static_cast<float*>(frame->add_stream(stream, VFIT_FORMAT_F32, drawn.drawn_count(), 1)),
-                    [](float x) { return x; });
+        write_drawn(values, static_cast<float*>(frame->add_stream(stream, VFIT_FORMAT_F32, count, 1)));
     };
     add(VFIT_STREAM_STRAIN, worn.finished().strain());
     if (!worn.finished().pressure().empty()) add(VFIT_STREAM_PRESSURE, worn.finished().pressure());

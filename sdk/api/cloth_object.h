@@ -45,12 +45,8 @@ struct ClothObject : ContextChild {
     /// Publishes the last finished step in the pose that the avatar has now.
     void reskin();
 
-    /// To one value a vertex that is drawn, of one a simulated vertex: copies have that of theirs.
-    template <typename T, typename Convert>
-    void write_drawn(const std::vector<T>& values, T* to, const Convert& convert) const {
-        for (const T& value : values) *to++ = convert(value);
-        for (const uint32_t of : worn.garment().copies) *to++ = convert(values[of]);
-    }
+    /// To one value a vertex that is drawn, of one a simulated vertex.
+    void write_drawn(const std::vector<float>& values, float* to) const;
 
 private:
     friend class ClothsOfCall;
@@ -60,6 +56,7 @@ private:
     Reading read_avatar() { return {avatar->access, "avatar"}; }
     void drop_destroyed_props();
     void publish_step();
+    void write_mesh(const FinishedStep::Reskinned& mesh, const MeshOutput::Vertices& to) const;
     void publish(const FinishedStep::Reskinned& mesh, int64_t time_ns, Ref<Frame> frame);
 
     std::shared_ptr<ClothSet> set_;  // changed by calls that have all of its cloths for themselves, under

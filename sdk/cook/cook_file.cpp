@@ -7,7 +7,6 @@
 
 #include "avatar/gltf_document.h"
 #include "cook/body/drawn_for.h"
-#include "cook/cook_model.h"
 #include "cook/draft/draft.h"
 #include "cook/model/gltf.h"
 #include "cook/model/obj.h"
@@ -155,6 +154,7 @@ std::vector<CookedGarment> cook_mesh(const BodyModel& model, const FabricLibrary
     if (request.unit_m > 0.0f) options.alignment.unit_m = request.unit_m, options.alignment.unit_told = true;
     options.alignment.scale = request.scale;
     options.alignment.stands_by = request.stands_by;
+    options.remake = request.remake;
     options.size_label = request.size_label;
     try {
         return cook_model(model, read_model(request.path), fabrics, options, jobs);

@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include "cook/cook_pattern.h"
-#include "cook/model/alignment.h"
+#include "cook/cook_model.h"
 
 namespace vfit {
 
@@ -21,6 +20,7 @@ struct CookRequest {
     // scaled (0: not by hand), by what it is placed, and the label of its size (empty: none).
     float unit_m = 0.0f, scale = 0.0f;
     StandsBy stands_by = StandsBy::any;
+    Remake remake = Remake::where_needed;
     std::string size_label;
     float triangle_m = 0.02f;
     DrapeSettings drape;

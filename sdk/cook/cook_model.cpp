@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <set>
 
 #include "cloth/garment/cut.h"
 #include "cook/body/cook_body.h"
 #include "cook/drape/grow_body.h"
 #include "cook/drape/upper_edge.h"
+#include "cook/model/draw.h"
+#include "cook/model/envelope.h"
 #include "cook/model/pieces.h"
 #include "cook/model/skeleton_probe.h"
 #include "cook/model/surface.h"
@@ -97,21 +100,69 @@ public:
           options_(options),
           jobs_(jobs),
           body_(body_model, options.cook.sex, options.cook.shape),
-          pieces_(make_pieces(model, plausible_unit(model, options.alignment.unit_m,
-                                                    options.alignment.unit_told))) {}
+          soup_(make_soup(model, plausible_unit(model, options.alignment.unit_m,
+                                                options.alignment.unit_told))) {}
 
     std::vector<CookedGarment> run() {
+        std::exception_ptr fault;
+        if (options_.remake != Remake::always) {
+            try {
+                pieces_ = make_pieces(soup_);
+                bring_to_body(false);
+                return cook_pieces(options_.remake == Remake::never);
+            } catch (const Error&) {
+                if (options_.remake == Remake::never) throw;
+                fault = std::current_exception();
+            }
+        }
+        try {
+            make_anew();
+            return cook_pieces(true);
+        } catch (const Error&) {
+            if (fault) std::rethrow_exception(fault);
+            throw;
+        }
+    }
+
+private:
+    static constexpr float kSide_m = 0.016f;
+
+    /// What is simulated is a surface of its own; what was modelled is drawn.
+    void make_anew() {
+        anew_ = true;
+        for (int round = 0; round < 2; ++round) {
+            envelope_ = envelope_of(soup_, kSide_m);
+            const Soup soup = make_soup(envelope_, soup_.unit_m);
+            pieces_ = make_pieces(soup);
+            const float scale = bring_to_body(round > 0);
+            // Its triangles are as large as they should be in the unit that was taken at first.
+            constexpr float kSame = 1.2f;
+            if (scale < kSame && scale > 1.0f / kSame) return;
+        }
+    }
+
+    /// Places all in metres as the body has them, but for being moved. Returns by how much they were scaled.
+    float bring_to_body(bool size_known) {
         AlignmentOptions how = options_.alignment;
         if (options_.cook.kind_told) how.kind = options_.cook.kind;
         how.thickness_m = options_.cook.drape.thickness_m;
+        how.size_known = size_known;
         alignment_ = align(pieces_, body_, how);
-        for (Vec3& p : pieces_.places) p = alignment_.scale * (alignment_.turn * p);
+        notes_.insert(notes_.end(), alignment_.notes.begin(), alignment_.notes.end());
+        const float scale = alignment_.scale;
+        for (std::vector<Vec3>* places : {&pieces_.places, &soup_.places})
+            for (Vec3& p : *places) p = scale * (alignment_.turn * p);
+        soup_.unit_m *= scale;
         alignment_.turn = Mat3(1.0f), alignment_.scale = 1.0f;
-        std::vector<CookedGarment> out;
+        return scale;
+    }
+
+    std::vector<CookedGarment> cook_pieces(bool as_they_are) {
         const std::vector<WornPiece> worn = worn_pieces();
+        std::vector<CookedGarment> out;
         std::set<std::string> names;
         for (const WornPiece& piece : worn) {
-            CookedGarment cooked = cook(piece);
+            CookedGarment cooked = cook(piece, as_they_are);
             if (worn.size() > 1) {
                 const std::string kind = cooked.garment.kind;
                 for (int i = 2; cooked.of_set.empty(); ++i)
@@ -121,43 +172,51 @@ public:
             }
             out.push_back(std::move(cooked));
         }
+        if (anew_ || has_trims_) draw_as_modelled(out);
         std::vector<std::string>& notes = out.front().notes;
+        notes_.insert(notes_.begin(), soup_.notes.begin(), soup_.notes.end());
+        notes_.insert(notes_.begin(), model_.notes.begin(), model_.notes.end());
         notes.insert(notes.begin(), notes_.begin(), notes_.end());
         return out;
+    }
+
+    /// Each triangle goes with the garment that is closest to it.
+    void draw_as_modelled(std::vector<CookedGarment>& garments) const {
+        std::vector<MeshQuery> cloths;
+        for (const CookedGarment& cooked : garments)
+            cloths.emplace_back(cooked.garment.cut_shape, cooked.garment.mesh.indices);
+        std::vector<std::vector<uint32_t>> triangles(garments.size());
+        for (uint32_t t = 0; t < soup_.triangles.size(); ++t) {
+            const auto& v = soup_.triangles[t].vertex;
+            const Vec3 middle = (soup_.places[v[0]] + soup_.places[v[1]] + soup_.places[v[2]]) / 3.0f;
+            size_t best = 0;
+            float least = INFINITY;
+            for (size_t g = 0; g < garments.size(); ++g)
+                if (const float off = cloths[g].closest(middle).distance; off < least) least = off, best = g;
+            triangles[best].push_back(t);
+        }
+        for (size_t g = 0; g < garments.size(); ++g)
+            if (!triangles[g].empty()) draw(soup_, triangles[g], cloths[g], garments[g].garment);
     }
 
 private:
     /// The garments among them, the innermost first.
     std::vector<WornPiece> worn_pieces() {
         const SkeletonProbe probe(body_);
-        notes_ = model_.notes;
-        for (const auto* list : {&pieces_.notes, &alignment_.notes})
-            notes_.insert(notes_.end(), list->begin(), list->end());
         float area = 0.0f;
         for (const Piece& piece : pieces_.list) area += piece.area_m2;
         std::vector<WornPiece> out;
-        size_t left_out = 0, left_out_triangles = 0;
-        std::set<std::string> materials;
         for (const Piece& piece : pieces_.list) {
             const Parted parted =
                 probe.parted(pieces_.places, piece.openings, alignment_.moved, alignment_.stance);
             if (piece.area_m2 < kTrimShare * area) {
-                ++left_out, left_out_triangles += piece.triangles.size();
-                materials.insert(pieces_.material_of(piece));
+                has_trims_ = true;
                 continue;
             }
             if (const WornPiece* other = shell_of(piece, parted, out)) refuse_shell(piece, *other->piece);
+            if (anew_ && parted.round_nothing()) continue;  // a part of it that stands off
             if (parted.round_nothing() && !out.empty()) refuse_part(piece, *out.front().piece);
             out.push_back({&piece, parted, off_skin(piece)});
-        }
-        if (left_out > 0) {
-            std::string named;
-            for (const std::string& name : materials)
-                if (!name.empty()) named += (named.empty() ? " of material \"" : ", \"") + name + "\"";
-            notes_.push_back(text(left_out, " pieces (", left_out_triangles, " triangles", named,
-                                  ") are left out: they are not joined to the garment, and each is smaller "
-                                  "than ",
-                                  int(kTrimShare * 100), " % of it"));
         }
         std::stable_sort(out.begin(), out.end(), [](const WornPiece& a, const WornPiece& b) {
             return a.off_skin_m < b.off_skin_m;
@@ -208,9 +267,10 @@ private:
              " mm away, and go round nothing by themselves; join them by common vertices");
     }
 
-    CookedGarment cook(const WornPiece& worn) {
+    /// as_they_are: else VFIT_ERROR_DATA where triangles are too small to be simulated well.
+    CookedGarment cook(const WornPiece& worn, bool as_they_are) {
         const Stopwatch watch;
-        Surface surface = make_surface(pieces_, *worn.piece);
+        Surface surface = make_surface(pieces_, *worn.piece, anew_ ? kAnewHole_m : kHole_m);
         const FabricMaterial material = fabrics_.get(options_.cook.fabric);
         const MeshQuery& skin = body_.skin();
         const float thickness = options_.cook.drape.thickness_m;
@@ -229,6 +289,8 @@ private:
         g.cut_shape = surface.positions;
         const std::vector<Vec2> cut = cut_corners(g);
         const WholeCloth cloth{surface.indices, cut, &material};
+        if (!as_they_are && !keeps_layers_apart(cloth, thickness))
+            fail(VFIT_ERROR_DATA, "its triangles are too small for its own layers to be kept apart");
         std::vector<Vec3> places = surface.positions;
         for (Vec3& p : places) p += alignment_.moved;
         out.report.hangs_on = worn.parted.over_shoulder() ? HangsOn::shoulders : HangsOn::waist;
@@ -264,6 +326,10 @@ private:
         out.round = goes_round(g.mesh.positions, g.mesh.indices, body_);
         check_worn(out.round, options_.cook.kind_told ? options_.cook.kind : "");
         out.notes = surface.notes;
+        if (anew_)
+            out.notes.push_back(text("what is simulated was made anew along its outer side, with ",
+                                     g.mesh.indices.size() / 3, " triangles; what was modelled is drawn and "
+                                                                "goes with it"));
         add_notes(cloth, thickness, inside, draped, out.notes);
         for (const auto& opening : surface.openings) out.openings_m.push_back(surface.length_of(opening));
         out.report.seconds = watch.ms() / 1000.0;
@@ -313,11 +379,17 @@ private:
             notes.push_back("it is held nowhere: all of it is simulated, and may slide off");
     }
 
+    // Around: smaller ones are buttonholes, eyelets and slips of the modeller; of a surface that was made anew
+    // no sleeve is as narrow.
+    static constexpr float kHole_m = 0.03f, kAnewHole_m = 0.12f;
     const Model& model_;
     const FabricLibrary& fabrics_;
     const ModelOptions& options_;
     Jobs& jobs_;
     const CookBody body_;
+    Soup soup_;
+    Model envelope_;
+    bool anew_ = false, has_trims_ = false;
     Pieces pieces_;
     Alignment alignment_;
     std::vector<std::string> notes_;

@@ -10,10 +10,14 @@
 
 namespace vfit {
 
+/// Whether what is simulated is made anew along the garment's outer side, and what was modelled is drawn on it.
+enum class Remake { where_needed, never, always };
+
 struct ModelOptions {
     std::string name;
     CookOptions cook;
     AlignmentOptions alignment;
+    Remake remake = Remake::where_needed;
     std::string size_label;  // empty: it has none
 };
 

@@ -46,7 +46,8 @@ std::string write_garment(const Garment& garment) {
         return Json(s).dump(-1, ' ', false, Json::error_handler_t::replace);
     };
     std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") +
-                      (!garment.body_shape.empty() ? "3"
+                      (!garment.drawn.empty()        ? "4"
+                       : !garment.body_shape.empty() ? "3"
                        : garment.has_own_lengths() ? "2"
                                                    : "1") +
                       ",\n";
@@ -109,6 +110,22 @@ std::string write_garment(const Garment& garment) {
                    std::to_string(part.triangle_count) + "]}";
         }
         out += "]";
+    }
+    if (const DrawnMesh& drawn = garment.drawn; !drawn.empty()) {
+        out += ",\n \"drawn\": {\n ";
+        add_array(out, "triangles", drawn.triangles);
+        out += ",\n ";
+        add_array(out, "weights", drawn.weights);
+        for (const auto& [key, values] :
+             {std::pair("offsets", &drawn.offsets), std::pair("normals", &drawn.normals)}) {
+            out += ",\n ";
+            add_array(out, key, *values);
+        }
+        out += ",\n ";
+        add_array(out, "uvs", drawn.uvs);
+        out += ",\n ";
+        add_array(out, "indices", drawn.indices);
+        out += "}";
     }
     out += "\n}\n";
     return out;

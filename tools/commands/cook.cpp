@@ -20,7 +20,7 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit, size_label, measures, shape, stand;
+    std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit, size_label, measures, shape, stand, remake;
     float triangle_mm = 20.0f, scale = 0.0f;
     bool json = false;
 };
@@ -54,6 +54,10 @@ Json report_of(const CookedGarment& cooked) {
                 {"sizes", sizes}};
     if (!g.has_own_lengths()) return out;
     out["triangles"] = g.mesh.indices.size() / 3;
+    if (!g.drawn.empty()) {
+        out["drawn_vertices"] = g.drawn_count();
+        out["drawn_triangles"] = g.drawn_indices().size() / 3;
+    }
     out["hangs_on"] = r.hangs_on == HangsOn::shoulders ? "shoulders"
                       : r.hangs_on == HangsOn::waist   ? "waist"
                                                        : "nothing";
@@ -91,6 +95,9 @@ public:
         request.measures = options_.measures;
         for (const vfit_shape_value& value : shape_values(options_.shape))
             request.shape.push_back({value.key, value.value});
+        request.remake = options_.remake == "never"    ? Remake::never
+                         : options_.remake == "always" ? Remake::always
+                                                       : Remake::where_needed;
         request.triangle_m = options_.triangle_mm / 1000.0f;
         if (!options_.unit.empty()) request.unit_m = unit_named(options_.unit);
         request.scale = options_.scale;
@@ -260,6 +267,11 @@ void add_cook(Command& app) {
                     "Of a mesh: how it comes to the body: as-modelled (it is not moved), by its shoulders or "
                     "by its waist (default: as it is worn without bones in its cloth)")
         .one_of({"as-modelled", "shoulders", "waist"});
+    command
+        .add_option("--remake", o->remake,
+                    "Of a mesh: whether what is simulated is made anew along its outer side, and what was "
+                    "modelled is drawn on it: never, always (default: where it can't be simulated as it is)")
+        .one_of({"never", "always"});
     command.add_option("--triangle", o->triangle_mm, "Side of a triangle of a pattern in mm (default 20)")
         .within(5, 100);
     command.add_flag("--json", o->json, "Print JSON");

@@ -27,7 +27,7 @@ Vec3 warp_of(const Vec3 (&at)[3], const Vec2 (&uv)[3], const Vec3& normal) {
 }  // namespace
 
 std::vector<Vec2> cut_corners(const Garment& garment, const GarmentSize* size) {
-    const std::vector<uint32_t>& drawn = garment.drawn_indices();
+    const std::vector<uint32_t>& drawn = garment.uv_indices();
     std::vector<Vec2> cut;
     cut.reserve(drawn.size());
     if (garment.cut_shape.empty()) {

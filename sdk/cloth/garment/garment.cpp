@@ -133,6 +133,18 @@ std::vector<GarmentPart> parts(const Json& root) {
     return out;
 }
 
+DrawnMesh drawn(const Json& object) {
+    if (!object.is_object()) fail(VFIT_ERROR_DATA, "garment: \"drawn\" is not an object");
+    DrawnMesh out;
+    out.triangles = indices(object, "triangles");
+    out.weights = pairs(object, "weights");
+    out.offsets = places(object, "offsets");
+    out.normals = places(object, "normals");
+    out.uvs = pairs(object, "uvs");
+    out.indices = indices(object, "indices");
+    return out;
+}
+
 void validate_sizes(const Garment& g) {
     std::set<std::string> labels;
     for (const GarmentSize& size : g.sizes) {
@@ -181,15 +193,15 @@ void validate_triangles(const Mesh& mesh) {
 
 /// Triangles as they are cut, of the garment or one of its sizes.
 void validate_flat(const Garment& g, std::span<const Vec2> flat, const std::string& whose) {
-    if (flat.size() != g.drawn_count())
-        fail(VFIT_ERROR_DATA, "garment: ", whose, " has ", flat.size(), " flat places for ", g.drawn_count(),
+    if (flat.size() != g.uv_count())
+        fail(VFIT_ERROR_DATA, "garment: ", whose, " has ", flat.size(), " flat places for ", g.uv_count(),
              " vertices and copies");
     for (size_t i = 0; i < flat.size(); ++i)
         if (!finite(flat[i].x) || !finite(flat[i].y) || glm::length(flat[i]) > kFarthest_m)
             fail(VFIT_ERROR_DATA, "garment: ", whose, ": flat place ", i, " is not finite or further than ",
                  kFarthest_m, " m away");
-    for (size_t i = 0; i + 2 < g.drawn_indices().size(); i += 3) {
-        const uint32_t* v = &g.drawn_indices()[i];
+    for (size_t i = 0; i + 2 < g.uv_indices().size(); i += 3) {
+        const uint32_t* v = &g.uv_indices()[i];
         const Vec2 a = flat[v[1]] - flat[v[0]], b = flat[v[2]] - flat[v[0]];
         if (!(0.5f * std::abs(a.x * b.y - a.y * b.x) >= kSmallestArea_m2))
             fail(VFIT_ERROR_DATA, "garment: ", whose, ": triangle ", i / 3, " is cut without an area");
@@ -215,6 +227,36 @@ void validate_cut_shape(const Garment& g) {
     }
 }
 
+void validate_drawn(const Garment& g) {
+    const DrawnMesh& d = g.drawn;
+    const size_t n = d.triangles.size();
+    if (d.weights.size() != n || d.offsets.size() != n || d.normals.size() != n || d.uvs.size() != n)
+        fail(VFIT_ERROR_DATA, "garment: the lists of \"drawn\" are not of equal length: ", n, " triangles, ",
+             d.weights.size(), " weights, ", d.offsets.size(), " offsets, ", d.normals.size(), " normals, ",
+             d.uvs.size(), " uvs");
+    if (n == 0) {
+        if (!d.indices.empty()) fail(VFIT_ERROR_DATA, "garment: \"drawn\" has indices, but no vertices");
+        return;
+    }
+    for (size_t i = 0; i < n; ++i) {
+        if (d.triangles[i] >= g.mesh.indices.size() / 3)
+            fail(VFIT_ERROR_DATA, "garment: vertex ", i, " of \"drawn\" names triangle ", d.triangles[i],
+                 " of ", g.mesh.indices.size() / 3);
+        const Vec2& w = d.weights[i];
+        if (!(w.x >= 0.0f && w.y >= 0.0f && w.x + w.y <= 1.001f))
+            fail(VFIT_ERROR_DATA, "garment: the weights of vertex ", i, " of \"drawn\" are not in its triangle");
+        if (!finite(d.offsets[i]) || glm::length(d.offsets[i]) > kFarthest_m || !finite(d.normals[i]) ||
+            !finite(d.uvs[i].x) || !finite(d.uvs[i].y))
+            fail(VFIT_ERROR_DATA, "garment: vertex ", i, " of \"drawn\" has numbers that are not finite, or an "
+                                  "offset of more than ", kFarthest_m, " m");
+    }
+    if (d.indices.empty() || d.indices.size() % 3 != 0)
+        fail(VFIT_ERROR_DATA, "garment: ", d.indices.size(), " indices of \"drawn\" are no list of triangles");
+    for (size_t i = 0; i < d.indices.size(); ++i)
+        if (d.indices[i] >= n)
+            fail(VFIT_ERROR_DATA, "garment: index ", i, " of \"drawn\" names vertex ", d.indices[i], " of ", n);
+}
+
 void validate_cut(const Garment& g) {
     const uint32_t n = g.vertex_count();
     for (size_t i = 0; i < g.copies.size(); ++i)
@@ -227,7 +269,7 @@ void validate_cut(const Garment& g) {
              " indices");
     for (size_t i = 0; i < g.corners.size(); ++i) {
         const uint32_t v = g.corners[i];
-        if (v >= g.drawn_count() || (v < n ? v : g.copies[v - n]) != g.mesh.indices[i])
+        if (v >= g.uv_count() || (v < n ? v : g.copies[v - n]) != g.mesh.indices[i])
             fail(VFIT_ERROR_DATA, "garment: corners[", i, "] is ", v, ", no copy of vertex ",
                  g.mesh.indices[i]);
     }
@@ -244,15 +286,15 @@ void validate_cut(const Garment& g) {
     uint32_t next = 0;
     for (const GarmentPart& part : g.parts) {
         if (part.first_triangle != next || part.triangle_count == 0 ||
-            part.triangle_count > g.mesh.indices.size() / 3 - next)
+            part.triangle_count > g.drawn_indices().size() / 3 - next)
             fail(VFIT_ERROR_DATA, "garment: the triangles of part ", part.material,
                  " do not follow on those of the one before, or are more than there are");
         next += part.triangle_count;
         if (!finite(part.color))
             fail(VFIT_ERROR_DATA, "garment: the colour of part ", part.material, " is not finite");
     }
-    if (!g.parts.empty() && next != g.mesh.indices.size() / 3)
-        fail(VFIT_ERROR_DATA, "garment: ", g.mesh.indices.size() / 3 - next, " triangles are in no part");
+    if (!g.parts.empty() && next != g.drawn_indices().size() / 3)
+        fail(VFIT_ERROR_DATA, "garment: ", g.drawn_indices().size() / 3 - next, " triangles are in no part");
 }
 
 }  // namespace
@@ -275,8 +317,8 @@ void validate_garment(const Garment& g, const FabricLibrary& fabrics) {
     if (n == 0) fail(VFIT_ERROR_DATA, "garment: there are no vertices");
     if (g.mesh.indices.empty() || g.mesh.indices.size() % 3 != 0)
         fail(VFIT_ERROR_DATA, "garment: ", g.mesh.indices.size(), " indices are no list of triangles");
-    if (g.mesh.uvs.size() != g.drawn_count())
-        fail(VFIT_ERROR_DATA, "garment: ", g.mesh.uvs.size(), " uvs for ", g.drawn_count(),
+    if (g.mesh.uvs.size() != g.uv_count())
+        fail(VFIT_ERROR_DATA, "garment: ", g.mesh.uvs.size(), " uvs for ", g.uv_count(),
              " vertices and copies");
     if (g.simulated.size() != n)
         fail(VFIT_ERROR_DATA, "garment: \"simulated\" has ", g.simulated.size(), " flags for ", n,
@@ -299,6 +341,7 @@ void validate_garment(const Garment& g, const FabricLibrary& fabrics) {
             fail(VFIT_ERROR_DATA, "garment: uv ", i, " is not finite");
     fabrics.get(g.fabric);
     validate_triangles(g.mesh);
+    validate_drawn(g);
     validate_cut(g);
     validate_sizes(g);
 }
@@ -311,8 +354,8 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     const Json& version = field(root, "version");
     if (!version.is_number_unsigned() || version.get<uint64_t>() == 0)
         fail(VFIT_ERROR_DATA, "garment: \"version\" is not a version number");
-    if (version.get<uint64_t>() > 3)
-        fail(VFIT_ERROR_VERSION, "garment: version ", version.get<uint64_t>(), " is not known, 1 to 3 are");
+    if (version.get<uint64_t>() > 4)
+        fail(VFIT_ERROR_VERSION, "garment: version ", version.get<uint64_t>(), " is not known, 1 to 4 are");
 
     Garment g;
     g.name = text_field(root, "name");
@@ -336,6 +379,7 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     if (root.contains("shape")) g.cut_shape = places(root, "shape");
     if (root.contains("on_arm")) g.on_arm = flags(root, "on_arm");
     if (root.contains("parts")) g.parts = parts(root);
+    if (root.contains("drawn")) g.drawn = drawn(field(root, "drawn"));
     validate_garment(g, fabrics);
     compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
     return g;

@@ -13,6 +13,7 @@
 #include "body/mesh.h"
 #include "body/shape_setting.h"
 #include "cloth/fabric/fabric_library.h"
+#include "cloth/garment/drawn_mesh.h"
 #include "vfit.h"
 
 namespace vfit {
@@ -49,7 +50,8 @@ struct Garment {
     std::vector<Vec3> cut_shape;  // empty, or one a vertex: a shape in space whose sides have the garment's
                                   // own lengths, of what was modelled and not cut; there is no flat then
     std::vector<uint8_t> on_arm;  // empty, or one a vertex: 1 carried by an arm
-    std::vector<GarmentPart> parts;  // empty: one, without a name
+    DrawnMesh drawn;                 // empty: what is simulated is drawn
+    std::vector<GarmentPart> parts;  // of the triangles that are drawn; empty: one, without a name
     std::vector<uint8_t> simulated;  // one a vertex: 1 simulated, 0 skinned with the body
     std::vector<uint8_t> backstop;   // one a vertex: 1 kept out of the body below it
     std::vector<float> most_way;  // empty, or one a vertex: metres from where the skin would carry it; 0: any
@@ -60,13 +62,19 @@ struct Garment {
     /// Other than those between its positions.
     bool has_own_lengths() const { return !flat.empty() || !cut_shape.empty(); }
     bool has_sleeves() const { return std::find(on_arm.begin(), on_arm.end(), uint8_t(1)) != on_arm.end(); }
-    uint32_t drawn_count() const { return vertex_count() + uint32_t(copies.size()); }
-    const std::vector<uint32_t>& drawn_indices() const { return corners.empty() ? mesh.indices : corners; }
+    /// The simulated mesh as its uvs and flat places count it.
+    uint32_t uv_count() const { return vertex_count() + uint32_t(copies.size()); }
+    const std::vector<uint32_t>& uv_indices() const { return corners.empty() ? mesh.indices : corners; }
+    uint32_t drawn_count() const { return drawn.empty() ? uv_count() : drawn.vertex_count(); }
+    const std::vector<uint32_t>& drawn_indices() const {
+        return drawn.empty() ? uv_indices() : drawn.indices;
+    }
+    const std::vector<Vec2>& drawn_uvs() const { return drawn.empty() ? mesh.uvs : drawn.uvs; }
     /// The size of that label; VFIT_ERROR_ARGUMENT, naming those that there are, where there is none.
     const GarmentSize& size(const std::string& label) const;
 };
 
-/// Reads a garment file (JSON, format "vfit-garment" version 1 to 3). Fails with VFIT_ERROR_DATA, naming the
+/// Reads a garment file (JSON, format "vfit-garment" version 1 to 4). Fails with VFIT_ERROR_DATA, naming the
 /// field, vertex, triangle or edge; with VFIT_ERROR_VERSION where the version is a later one.
 Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabrics);
 

@@ -322,10 +322,11 @@ public:
     Alignment run() {
         const std::vector<Turn> all = turns();
         for (const Turn& turn : all) {
+            if (options_.size_known) try_out(1.0f, turn, nullptr);
             for (const Unit& unit : units()) try_out(unit.metres / pieces_.unit_m, turn, &unit);
             if (best_ && best_->cost < kGood) break;
         }
-        if (best_ && options_.scale == 0.0f && best_->found.girth_ratio > 0.0f &&
+        if (best_ && options_.scale == 0.0f && !options_.size_known && best_->found.girth_ratio > 0.0f &&
             (best_->found.girth_ratio < kTight || best_->found.girth_ratio > kLoose))
             try_out(best_->alignment.scale * kUsual / best_->found.girth_ratio, all[best_->turn], nullptr);
         if (!best_) fail(VFIT_ERROR_DATA, "it has no edge by which it could hang on a body");
@@ -345,6 +346,7 @@ private:
 
     std::vector<Unit> units() const {
         std::vector<Unit> out;
+        if (options_.size_known) return out;
         const float size = largest_extent(*pieces_.model);
         for (const Unit& unit : kUnits)
             if (options_.unit_told ? unit.metres == options_.unit_m : is_garments(size * unit.metres))
@@ -352,11 +354,14 @@ private:
         return out;
     }
 
+    bool is_stated(const Unit* unit) const { return unit && unit->metres == options_.unit_m; }
+
     void try_out(float scale, const Turn& turn, const Unit* unit) {
-        if (options_.scale != 0.0f) scale *= options_.scale;
+        if (options_.scale != 0.0f && !options_.size_known) scale *= options_.scale;
         const Candidate candidate(pieces_, body_, scale, turn.matrix);
         const bool as_written =
-            options_.scale == 0.0f && unit && unit->metres == options_.unit_m && turn.note[0] == 0;
+            turn.note[0] == 0 && (options_.size_known ? pieces_.unit_m == options_.unit_m
+                                                      : options_.scale == 0.0f && is_stated(unit));
         const StandsBy by = options_.stands_by;
         std::vector<Vec3> ways;
         if (by == StandsBy::as_modelled) ways.emplace_back(0.0f);
@@ -379,7 +384,7 @@ private:
                 ++way.turn;
             }
             way.cost = cost(way) + 0.1f * float(w);
-            if (!unit || unit->metres != options_.unit_m) way.cost += kOtherScale;
+            if (!options_.size_known && !is_stated(unit)) way.cost += kOtherScale;
             if (best_ && best_->cost <= way.cost) continue;
             note(way.alignment, turn, unit);
             best_ = std::move(way);
@@ -412,7 +417,7 @@ private:
     void note(Alignment& alignment, const Turn& turn, const Unit* unit) const {
         std::vector<std::string>& notes = alignment.notes;
         if (turn.note[0]) notes.push_back(std::string(turn.note) + ", and was turned");
-        if (!unit || unit->metres != options_.unit_m)
+        if (!options_.size_known && !is_stated(unit))
             notes.push_back(unit ? text("its numbers count in ", unit->name, " (--unit ", unit->option, ")")
                                  : text("it was modelled on a body of another size, and was scaled by ",
                                         std::round(alignment.scale * 1000.0f) / 1000.0f));

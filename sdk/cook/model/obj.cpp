@@ -107,7 +107,7 @@ size_t option_values(std::string_view option) {
 
 class ObjReader {
 public:
-    ObjReader(std::string_view text, const Beside& beside) : lines_(text), beside_(beside) {
+    ObjReader(std::string_view text, const Beside& beside) : lines_(without_mark(text)), beside_(beside) {
         if (text.find('\0') != std::string_view::npos) fail(VFIT_ERROR_DATA, "no OBJ file: it is not text");
     }
 
@@ -138,6 +138,12 @@ public:
     }
 
 private:
+    /// Some editors put a byte order mark before UTF-8.
+    static std::string_view without_mark(std::string_view text) {
+        constexpr std::string_view kMark = "\xef\xbb\xbf";
+        return text.substr(0, kMark.size()) == kMark ? text.substr(kMark.size()) : text;
+    }
+
     template <int kCount>
     glm::vec<kCount, float> read_vector(const char* what) {
         glm::vec<kCount, float> out(0.0f);

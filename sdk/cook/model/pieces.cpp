@@ -15,7 +15,7 @@ namespace vfit {
 namespace {
 
 constexpr float kOnePlace_m = 1e-4f;  // closer than that, vertices are one
-constexpr size_t kMostVertices = 60000;
+constexpr size_t kMostTriangles = 500000;
 constexpr float kLeastArea_m2 = 1e-8f;
 
 /// Vertices at one place by a grid of cells as large as the tolerance.
@@ -49,32 +49,23 @@ private:
 
 using Side = std::pair<uint32_t, uint32_t>;
 
-class PiecesMaker {
+class SoupMaker {
 public:
-    PiecesMaker(const Model& model, float unit_m) : model_(model), unit_m_(unit_m) {}
+    SoupMaker(const Model& model, float unit_m) : model_(model), unit_m_(unit_m) {}
 
-    Pieces run() {
+    Soup run() {
         weld();
         cut_polygons();
         leave_out_copies();
-        turn_alike();
-        Pieces out{&model_, unit_m_, {}, model_.uvs, std::vector<Piece>(piece_count_), std::move(notes_)};
-        for (size_t t = 0; t < triangles_.size(); ++t) {
-            Piece& piece = out.list[pieces_[t]];
-            piece.triangles.push_back(triangles_[t]);
-            piece.indices.insert(piece.indices.end(), triangles_[t].vertex.begin(), triangles_[t].vertex.end());
-            piece.area_m2 += area_of(places_, triangles_[t]);
-        }
-        for (Piece& piece : out.list) piece.openings = borders(piece.indices);
-        std::stable_sort(out.list.begin(), out.list.end(),
-                         [](const Piece& a, const Piece& b) { return a.area_m2 > b.area_m2; });
-        out.places = std::move(places_);
-        return out;
+        if (collapsed_ > 0)
+            notes_.push_back(text(
+                collapsed_, " faces are left out whose corners lie at one place or two, the first of them ",
+                model_.name_of(first_collapsed_)));
+        if (triangles_.empty()) fail(VFIT_ERROR_DATA, "the mesh has no triangle with an area");
+        return {&model_, unit_m_, std::move(places_), std::move(triangles_), std::move(notes_)};
     }
 
 private:
-    std::string name_of(const ModelTriangle& t) const { return model_.name_of(t.face); }
-
     void weld() {
         // A tenth of a millimetre decides: where a model is a grain of dust, all of it is one place.
         Weld weld;
@@ -82,12 +73,6 @@ private:
         for (const ModelCorner& corner : model_.corners) {
             uint32_t& v = vertex_of_[corner.position];
             if (v == UINT32_MAX) v = weld.add(model_.positions[corner.position] * unit_m_, places_);
-            if (places_.size() > kMostVertices) {
-                std::set<uint32_t> used;
-                for (const ModelCorner& c : model_.corners) used.insert(c.position);
-                fail(VFIT_ERROR_DATA, "the mesh has ", used.size(), " vertices, a garment at most ",
-                     kMostVertices, " at places of their own: make it coarser");
-            }
         }
     }
 
@@ -106,16 +91,26 @@ private:
                 if (collapsed_++ == 0) first_collapsed_ = f;
                 continue;
             }
-            for (const auto& t : corners.size() == 3 ? Triangles{{0, 1, 2}} : cut_polygon(corners, f))
+            for (const auto& t : cut_up(corners, f))
                 triangles_.push_back(
                     {{corners[t[0]].position, corners[t[1]].position, corners[t[2]].position},
                      {corners[t[0]].uv, corners[t[1]].uv, corners[t[2]].uv},
                      f});
         }
-        if (collapsed_ > 0)
-            notes_.push_back(text(
-                collapsed_, " faces are left out whose corners lie at one place or two, the first of them ",
-                model_.name_of(first_collapsed_)));
+    }
+
+    Triangles cut_up(const std::vector<ModelCorner>& corners, uint32_t face) const {
+        if (corners.size() == 3) return {{0, 1, 2}};
+        if (corners.size() > 4) return cut_polygon(corners, face);
+        // Squares are bent in all ways: along the diagonal that leaves both halves turned alike, or the shorter.
+        const auto at = [&](size_t i) { return places_[corners[i % 4].position]; };
+        const auto alike = [&](size_t i) {
+            return glm::dot(glm::cross(at(i + 1) - at(i), at(i + 2) - at(i)),
+                            glm::cross(at(i + 2) - at(i), at(i + 3) - at(i))) > 0.0f;
+        };
+        const bool even = alike(0), odd = alike(1);
+        const bool first = even != odd ? even : glm::length(at(2) - at(0)) <= glm::length(at(3) - at(1));
+        return first ? Triangles{{0, 1, 2}, {0, 2, 3}} : Triangles{{0, 1, 3}, {1, 2, 3}};
     }
 
     Triangles cut_polygon(const std::vector<ModelCorner>& corners, uint32_t face) const {
@@ -176,19 +171,55 @@ private:
         for (const ModelTriangle& t : triangles_) {
             std::array<uint32_t, 3> sorted = t.vertex;
             std::sort(sorted.begin(), sorted.end());
-            if (sorted[0] == sorted[1] || sorted[1] == sorted[2])
-                fail(VFIT_ERROR_DATA, name_of(t), " comes to one corner twice: cut it into triangles");
+            if (sorted[0] == sorted[1] || sorted[1] == sorted[2]) {
+                if (collapsed_++ == 0) first_collapsed_ = t.face;
+                continue;
+            }
             if (known.insert(sorted).second)
                 kept.push_back(t);
             else
                 ++copies;
         }
         triangles_ = std::move(kept);
-        if (triangles_.size() > 3 * kMostVertices)
+        if (triangles_.size() > kMostTriangles)
             fail(VFIT_ERROR_DATA, "the mesh has ", triangles_.size(), " triangles, a garment at most ",
-                 3 * kMostVertices, ": make it coarser");
+                 kMostTriangles, ": make it coarser");
         if (copies > 0) notes_.push_back(text(copies, " triangles are left out that are there twice"));
     }
+
+    const Model& model_;
+    float unit_m_;
+    std::vector<Vec3> places_;
+    std::vector<uint32_t> vertex_of_;  // of each of the model's positions
+    std::vector<ModelTriangle> triangles_;
+    size_t collapsed_ = 0, first_collapsed_ = 0;
+    std::vector<std::string> notes_;
+};
+
+class PiecesMaker {
+public:
+    explicit PiecesMaker(const Soup& soup) : soup_(soup), places_(soup.places), triangles_(soup.triangles) {}
+
+    Pieces run() {
+        turn_alike();
+        Pieces out{soup_.model, soup_.unit_m, places_, soup_.model->uvs, std::vector<Piece>(piece_count_),
+                   soup_.notes};
+        out.notes.insert(out.notes.end(), notes_.begin(), notes_.end());
+        for (size_t t = 0; t < triangles_.size(); ++t) {
+            Piece& piece = out.list[pieces_[t]];
+            piece.triangles.push_back(triangles_[t]);
+            piece.indices.insert(piece.indices.end(), triangles_[t].vertex.begin(),
+                                 triangles_[t].vertex.end());
+            piece.area_m2 += area_of(places_, triangles_[t]);
+        }
+        for (Piece& piece : out.list) piece.openings = borders(piece.indices);
+        std::stable_sort(out.list.begin(), out.list.end(),
+                         [](const Piece& a, const Piece& b) { return a.area_m2 > b.area_m2; });
+        return out;
+    }
+
+private:
+    std::string name_of(const ModelTriangle& t) const { return soup_.name_of(t); }
 
     /// Neighbours run along their common side in opposite directions; pieces_ becomes the piece of each
     /// triangle.
@@ -257,14 +288,11 @@ private:
                 text(mended, " triangles were turned the other way round, as those beside them are"));
     }
 
-    const Model& model_;
-    float unit_m_;
-    std::vector<Vec3> places_;
-    std::vector<uint32_t> vertex_of_;  // of each of the model's positions
+    const Soup& soup_;
+    const std::vector<Vec3>& places_;
     std::vector<ModelTriangle> triangles_;
     std::vector<uint32_t> pieces_;  // of each triangle
     uint32_t piece_count_ = 0;
-    size_t collapsed_ = 0, first_collapsed_ = 0;
     std::vector<std::string> notes_;
 };
 
@@ -280,6 +308,14 @@ std::string shown(const Vec3& place) {
     return text("(", rounded(place.x), ", ", rounded(place.y), ", ", rounded(place.z), ")");
 }
 
-Pieces make_pieces(const Model& model, float unit_m) { return PiecesMaker(model, unit_m).run(); }
+std::vector<uint32_t> Soup::indices() const {
+    std::vector<uint32_t> out;
+    for (const ModelTriangle& t : triangles) out.insert(out.end(), t.vertex.begin(), t.vertex.end());
+    return out;
+}
+
+Soup make_soup(const Model& model, float unit_m) { return SoupMaker(model, unit_m).run(); }
+
+Pieces make_pieces(const Soup& soup) { return PiecesMaker(soup).run(); }
 
 }  // namespace vfit

@@ -1,4 +1,4 @@
-// A model's triangles, joined where they meet, in the pieces that hang together.
+// A model's triangles, and the pieces of them that hang together.
 #pragma once
 
 #include <array>
@@ -14,6 +14,21 @@ struct ModelTriangle {
     std::array<uint32_t, 3> vertex, uv;  // uv: kNoUv where there is none
     uint32_t face;                       // of the model
 };
+
+/// A model's triangles in metres: vertices at one place are one.
+struct Soup {
+    const Model* model;
+    float unit_m;  // of the model's numbers
+    std::vector<Vec3> places;
+    std::vector<ModelTriangle> triangles;
+    std::vector<std::string> notes;  // of what was mended or left out
+
+    std::string name_of(const ModelTriangle& triangle) const { return model->name_of(triangle.face); }
+    std::vector<uint32_t> indices() const;
+};
+
+/// VFIT_ERROR_DATA says what is no mesh, and where. model must outlive it.
+Soup make_soup(const Model& model, float unit_m);
 
 /// Each side is of two triangles, turned the same way, or of the border.
 struct Piece {
@@ -37,9 +52,8 @@ struct Pieces {
     std::string name_of(const Piece& piece) const { return model->name_of(piece.triangles.front().face); }
 };
 
-/// unit_m: of the positions. Vertices at one place become one; polygons are cut into triangles, which are
-/// turned the same way. VFIT_ERROR_DATA says what is no garment's mesh, and where. model must outlive them.
-Pieces make_pieces(const Model& model, float unit_m);
+/// Triangles are turned the same way. VFIT_ERROR_DATA says what is no surface, and where.
+Pieces make_pieces(const Soup& soup);
 
 float area_of(const std::vector<Vec3>& places, const ModelTriangle& triangle);
 /// "(0.1, 1.2, 0)".

@@ -17,7 +17,6 @@ namespace {
 constexpr size_t kFewestTriangles = 50;
 constexpr float kLeastArea_m2 = 1e-8f,
                 kLeastHeight_m = 5e-5f;  // of a triangle: lengths are written to a hundredth of a millimetre
-constexpr float kHole_m = 0.03f;  // around: smaller ones are buttonholes, eyelets and slips of the modeller
 constexpr float kLeastOpening_m = 0.25f;  // around: no head, arm or foot goes through less
 constexpr float kThick_m = 0.015f;
 
@@ -28,8 +27,8 @@ using Side = std::pair<uint32_t, uint32_t>;
 
 class SurfaceMaker {
 public:
-    SurfaceMaker(const Pieces& pieces, const Piece& piece)
-        : model_(*pieces.model), uvs_(pieces.uvs), places_(pieces.places), triangles_(piece.triangles) {}
+    SurfaceMaker(const Pieces& pieces, const Piece& piece, float hole_m)
+        : model_(*pieces.model), uvs_(pieces.uvs), places_(pieces.places), triangles_(piece.triangles), hole_m_(hole_m) {}
 
     Surface run() {
         check_triangles();
@@ -111,7 +110,7 @@ private:
         for (const auto& loop : loops) {
             const float length = length_around(places_, loop);
             longest = std::max(longest, length);
-            if (length >= kHole_m) continue;
+            if (length >= hole_m_) continue;
             if (!close_hole(loop, sides_of)) {
                 ++left;
                 continue;
@@ -124,10 +123,10 @@ private:
                 lengths += ", ...";
         }
         if (closed > 0)
-            notes_.push_back(text(closed, " holes of less than ", whole_mm(kHole_m),
+            notes_.push_back(text(closed, " holes of less than ", whole_mm(hole_m_),
                                   " mm around were closed (", lengths, " mm)"));
         if (left > 0)
-            notes_.push_back(text(left, " slits of less than ", whole_mm(kHole_m), " mm around stay open"));
+            notes_.push_back(text(left, " slits of less than ", whole_mm(hole_m_), " mm around stay open"));
         if (longest < kLeastOpening_m)
             fail(VFIT_ERROR_DATA, "the mesh has no opening for a body: of its ", loops.size(),
                  " holes the largest is ", shown_cm(longest), " around, and ", shown_cm(kLeastOpening_m),
@@ -196,7 +195,7 @@ private:
             }
             out.corners.push_back(it->second);
         }
-        if (!model_.materials.empty()) write_parts(out);
+        out.parts = parts_of(model_, triangles_);
         out.openings = borders(out.indices);
         std::stable_sort(out.openings.begin(), out.openings.end(),
                          [&](const auto& a, const auto& b) { return out.length_of(a) > out.length_of(b); });
@@ -204,32 +203,37 @@ private:
         return out;
     }
 
-    void write_parts(Surface& out) const {
-        for (uint32_t t = 0; t < triangles_.size(); ++t) {
-            const uint32_t m = model_.faces[triangles_[t].face].material;
-            if (t == 0 || m != model_.faces[triangles_[t - 1].face].material) {
-                const ModelMaterial material = m < model_.materials.size()
-                                                   ? model_.materials[m]
-                                                   : ModelMaterial{"cloth", "", Vec3(0.8f)};
-                out.parts.push_back({material.name, material.texture, material.color, t, 0});
-            }
-            ++out.parts.back().triangle_count;
-        }
-    }
-
     const Model& model_;
     std::vector<Vec2> uvs_;
     std::vector<Vec3> places_;
     std::vector<ModelTriangle> triangles_;
+    float hole_m_;
     std::vector<std::string> notes_;
 };
 
 }  // namespace
 
+std::vector<GarmentPart> parts_of(const Model& model, const std::vector<ModelTriangle>& triangles) {
+    std::vector<GarmentPart> out;
+    if (model.materials.empty()) return out;
+    for (uint32_t t = 0; t < triangles.size(); ++t) {
+        const uint32_t m = model.faces[triangles[t].face].material;
+        if (t == 0 || m != model.faces[triangles[t - 1].face].material) {
+            const ModelMaterial material = m < model.materials.size() ? model.materials[m]
+                                                                      : ModelMaterial{"cloth", "", Vec3(0.8f)};
+            out.push_back({material.name, material.texture, material.color, t, 0});
+        }
+        ++out.back().triangle_count;
+    }
+    return out;
+}
+
 float Surface::length_of(const std::vector<uint32_t>& opening) const {
     return length_around(positions, opening);
 }
 
-Surface make_surface(const Pieces& pieces, const Piece& piece) { return SurfaceMaker(pieces, piece).run(); }
+Surface make_surface(const Pieces& pieces, const Piece& piece, float hole_m) {
+    return SurfaceMaker(pieces, piece, hole_m).run();
+}
 
 }  // namespace vfit

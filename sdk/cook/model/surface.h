@@ -23,7 +23,10 @@ struct Surface {
     float length_of(const std::vector<uint32_t>& opening) const;
 };
 
-/// Holes that are no openings are closed. VFIT_ERROR_DATA says what is no cloth, and where.
-Surface make_surface(const Pieces& pieces, const Piece& piece);
+/// Holes of less than hole_m around are closed. VFIT_ERROR_DATA says what is no cloth, and where.
+Surface make_surface(const Pieces& pieces, const Piece& piece, float hole_m);
+
+/// How triangles in the order of their materials look; empty where the model has no materials.
+std::vector<GarmentPart> parts_of(const Model& model, const std::vector<ModelTriangle>& triangles);
 
 }  // namespace vfit

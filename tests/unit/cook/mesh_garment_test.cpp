@@ -126,8 +126,8 @@ TEST_F(MeshGarment, AShirtOfOursReadsBackInBothFormats) {
     std::vector<Vec3> drawn = shirt.mesh.positions;
     for (const uint32_t v : shirt.copies) drawn.push_back(shirt.mesh.positions[v]);
     const std::vector<float> lengths = side_lengths(shirt.mesh.positions, shirt.mesh.indices);
-    const std::string obj = obj_vertices(drawn, shirt.mesh.uvs) + obj_faces(shirt.drawn_indices(), 3);
-    const std::string glb = TinyGlb(drawn, shirt.mesh.uvs, shirt.drawn_indices()).bytes();
+    const std::string obj = obj_vertices(drawn, shirt.mesh.uvs) + obj_faces(shirt.uv_indices(), 3);
+    const std::string glb = TinyGlb(drawn, shirt.mesh.uvs, shirt.uv_indices()).bytes();
     for (const auto& [name, bytes] : {std::pair("shirt.obj", obj), std::pair("shirt.glb", glb)}) {
         const CookedGarment cooked = cook(name, bytes, VFIT_SEX_MALE);
         const Garment& g = cooked.garment;
@@ -204,10 +204,12 @@ TEST_F(MeshGarment, CountsInTheUnitThatIsSaid) {
     EXPECT_NEAR(a.back(), side_lengths(TubeMesh().positions(), TubeMesh().triangles()).back(), 1e-4f);
 }
 
+Surface surface_of(const Model& model, float unit_m = 1.0f) {
+    const Pieces pieces = make_pieces(make_soup(model, unit_m));
+    return make_surface(pieces, pieces.list.front(), 0.03f);
+}
 Surface surface_of(const std::string& obj, float unit_m = 1.0f) {
-    const Model model = read_obj(obj, Beside());
-    const Pieces pieces = make_pieces(model, unit_m);
-    return make_surface(pieces, pieces.list.front());
+    return surface_of(read_obj(obj, Beside()), unit_m);
 }
 
 std::string refusal_of(const std::string& obj, float unit_m = 1.0f) {
@@ -503,7 +505,7 @@ TEST(GltfGarment, IsRefusedWithTheReason) {
         TinyGlb glb = tube_glb();
         change(glb.json);
         try {
-            make_surface(read_glb(glb), 1.0f);
+            surface_of(read_glb(glb));
             ADD_FAILURE() << "accepted: " << word;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), code) << error.what();
@@ -599,10 +601,8 @@ TEST(MeshFiles, DamageIsAnErrorAndNothingElse) {
     const std::string glb = TinyGlb(small.positions(), small.uvs(), small.triangles()).bytes();
     EXPECT_GT(damaged(glb, 6, 800,
                       [](const std::string& bad) {
-                          make_surface(
-                              read_gltf(GltfDocument(std::as_bytes(std::span(bad.data(), bad.size()))),
-                                        "x.glb", Beside()),
-                              1.0f);
+                          surface_of(read_gltf(GltfDocument(std::as_bytes(std::span(bad.data(), bad.size()))),
+                                               "x.glb", Beside()));
                       }),
               20);
 }
