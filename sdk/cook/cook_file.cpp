@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "avatar/gltf_document.h"
@@ -29,28 +31,32 @@ std::string name_of(const std::string& path) {
     return name;
 }
 
-/// A specification does not tell whom it was drawn for: on the woman, and where its seams do not close on
-/// her, or it crosses her or itself, on the man too; the better of both.
-CookedGarment cook_on_either(const BodyModel& model, const std::vector<PatternSize>& sizes,
-                             const FabricLibrary& fabrics, CookOptions options, Jobs& jobs) {
-    std::optional<CookedGarment> on_woman;
-    std::string fault;
+uint32_t crossings_of(const std::vector<CookedGarment>& garments) {
+    uint32_t sum = 0;
+    for (const CookedGarment& cooked : garments) sum += cooked.report.crossings();
+    return sum;
+}
+
+/// A file does not tell whom its garment was made for: on the woman, and where that fails, or it crosses her or
+/// itself, on the man too; the better of both.
+std::vector<CookedGarment> better_of_both(
+    const std::function<std::vector<CookedGarment>(vfit_sex)>& cook_on) {
+    std::vector<CookedGarment> on_woman, on_man;
+    std::exception_ptr fault;
     try {
-        options.sex = VFIT_SEX_FEMALE;
-        on_woman = cook_pattern(model, sizes, 0, fabrics, options, jobs);
-        if (on_woman->report.crossings() == 0) return std::move(*on_woman);
-    } catch (const Error& error) {
-        fault = error.what();
-    }
-    try {
-        options.sex = VFIT_SEX_MALE;
-        CookedGarment on_man = cook_pattern(model, sizes, 0, fabrics, options, jobs);
-        return on_woman && on_woman->report.crossings() <= on_man.report.crossings() ? std::move(*on_woman)
-                                                                                     : std::move(on_man);
+        on_woman = cook_on(VFIT_SEX_FEMALE);
+        if (crossings_of(on_woman) == 0) return on_woman;
     } catch (const Error&) {
-        if (!on_woman) fail(VFIT_ERROR_DATA, fault);
-        return std::move(*on_woman);
+        fault = std::current_exception();
     }
+    try {
+        on_man = cook_on(VFIT_SEX_MALE);
+    } catch (const Error&) {
+        if (on_woman.empty()) std::rethrow_exception(fault);
+        return on_woman;
+    }
+    return !on_woman.empty() && crossings_of(on_woman) <= crossings_of(on_man) ? std::move(on_woman)
+                                                                              : std::move(on_man);
 }
 
 /// Where GarmentCode keeps the measures of the body that a pattern was drawn for; empty: there are none.
@@ -81,6 +87,12 @@ std::optional<BodyDrawnFor> body_of(const BodyModel& model, const CookRequest& r
     }
 }
 
+std::vector<CookedGarment> one(CookedGarment&& cooked) {
+    std::vector<CookedGarment> out;
+    out.push_back(std::move(cooked));
+    return out;
+}
+
 CookedGarment cook_specification(const BodyModel& model, const FabricLibrary& fabrics,
                                  const CookRequest& request, std::span<const std::byte> text, Jobs& jobs) {
     CookOptions options;
@@ -102,7 +114,10 @@ CookedGarment cook_specification(const BodyModel& model, const FabricLibrary& fa
         return cooked;
     }
     if (request.sex != VFIT_SEX_UNKNOWN) return cook_pattern(model, sizes, 0, fabrics, options, jobs);
-    return cook_on_either(model, sizes, fabrics, options, jobs);
+    return std::move(better_of_both([&](vfit_sex sex) {
+                         options.sex = sex;
+                         return one(cook_pattern(model, sizes, 0, fabrics, options, jobs));
+                     }).front());
 }
 
 CookedGarment cook_design(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
@@ -149,26 +164,25 @@ std::vector<CookedGarment> cook_mesh(const BodyModel& model, const FabricLibrary
     options.cook.size_chart = request.size_chart;
     if (request.sex != VFIT_SEX_UNKNOWN) options.cook.sex = request.sex;
     options.cook.drape = request.drape;
-    if (const auto body = body_of(model, request, request.measures))
-        options.cook.sex = body->sex, options.cook.shape = body->shape;
+    const auto body = body_of(model, request, request.measures);
+    if (body) options.cook.sex = body->sex, options.cook.shape = body->shape;
     if (request.unit_m > 0.0f) options.alignment.unit_m = request.unit_m, options.alignment.unit_told = true;
     options.alignment.scale = request.scale;
     options.alignment.stands_by = request.stands_by;
     options.remake = request.remake;
     options.size_label = request.size_label;
     try {
-        return cook_model(model, read_model(request.path), fabrics, options, jobs);
+        const Model mesh = read_model(request.path);
+        if (request.sex != VFIT_SEX_UNKNOWN || body) return cook_model(model, mesh, fabrics, options, jobs);
+        return better_of_both([&](vfit_sex sex) {
+            options.cook.sex = sex;
+            return cook_model(model, mesh, fabrics, options, jobs);
+        });
     } catch (const Error& error) {
         const std::string name = std::filesystem::path(request.path).filename().string(), what = error.what();
         if (what.find(name) != std::string::npos) throw;
         fail(error.code(), name, ": ", what);
     }
-}
-
-std::vector<CookedGarment> one(CookedGarment&& cooked) {
-    std::vector<CookedGarment> out;
-    out.push_back(std::move(cooked));
-    return out;
 }
 
 }  // namespace

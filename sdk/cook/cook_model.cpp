@@ -105,9 +105,11 @@ public:
 
     std::vector<CookedGarment> run() {
         std::exception_ptr fault;
+        bool is_surface = false;
         if (options_.remake != Remake::always) {
             try {
                 pieces_ = make_pieces(soup_);
+                is_surface = true;
                 bring_to_body(false);
                 return cook_pieces(options_.remake == Remake::never);
             } catch (const Error&) {
@@ -119,21 +121,21 @@ public:
             make_anew();
             return cook_pieces(true);
         } catch (const Error&) {
-            if (fault) std::rethrow_exception(fault);
+            // What is wrong with a surface is its author's to know; else it is what was found of it.
+            if (is_surface) std::rethrow_exception(fault);
             throw;
         }
     }
 
 private:
-    static constexpr float kSide_m = 0.016f;
+    static constexpr float kSide_m = 0.02f;
 
     /// What is simulated is a surface of its own; what was modelled is drawn.
     void make_anew() {
         anew_ = true;
         for (int round = 0; round < 2; ++round) {
             envelope_ = envelope_of(soup_, kSide_m);
-            const Soup soup = make_soup(envelope_, soup_.unit_m);
-            pieces_ = make_pieces(soup);
+            pieces_ = make_pieces(soup_of_joined(envelope_, soup_.unit_m));
             const float scale = bring_to_body(round > 0);
             // Its triangles are as large as they should be in the unit that was taken at first.
             constexpr float kSame = 1.2f;

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
+#include <tuple>
 
 #include "cook/drape/upper_edge.h"
 #include "core/error.h"
@@ -125,44 +128,57 @@ public:
         const BodyOutline& outline = body_.outline();
         const TailorLevels& levels = outline.levels();
         Box top;
-        constexpr float kTop = 0.15f;
+        constexpr float kTop = 0.3f;
         for (const uint32_t v : indices_)
             if (places_[v].y > glm::mix(box_.high.y, box_.low.y, kTop)) top.add(places_[v]);
         Vec3 moved(-x_, 0.0f, only_if_far(outline.axis_z() - top.middle().z));
-        std::vector<Vec3> there = places_;
-        for (Vec3& p : there) p += moved;
-        const std::vector<uint32_t> edge = upper_edge(there, openings_, outline.axis_z());
-        if (edge.empty()) return std::nullopt;
-        float front = -INFINITY, back = INFINITY;
-        for (const uint32_t v : edge) front = std::max(front, there[v].z), back = std::min(back, there[v].z);
-        moved.z += only_if_far(outline.axis_z() - 0.5f * (front + back));
-        const float own = mean_height(places_, edge);
-        constexpr float kAboveWaist_m = 0.12f;
-        const bool stands_there =
-            may_stay && moved.x == 0.0f && own > levels.hip && own < levels.shoulder;
-        if (stands_there && own > levels.waist + kAboveWaist_m) return moved;
-        const auto crotch = crotch_raise(moved);
-        // Without a place of its own it is one that its crotch tells, or its narrowest girth.
-        float from = own;
-        if (crotch)
-            from = own + *crotch;
-        else if (!stands_there)
-            from = own + levels.waist - narrowest(own);
-        if (!crotch && !stands_there && from > levels.waist + kAboveWaist_m)
-            moved.y = from - own;
-        else
-            moved.y = sits_at(edge, from) - own;
-        if (crotch) moved.y = std::min(moved.y, *crotch);
+        for (int round = 0; round < 2; ++round) {
+            std::vector<Vec3> there = places_;
+            for (Vec3& p : there) p += moved;
+            const std::vector<uint32_t> edge = upper_edge(there, openings_, outline.axis_z());
+            if (edge.empty()) return std::nullopt;
+            const float own = mean_height(places_, edge);
+            constexpr float kAboveWaist_m = 0.12f;
+            const bool stands_there =
+                may_stay && moved.x == 0.0f && own > levels.hip && own < levels.shoulder;
+            if (stands_there && own > levels.waist + kAboveWaist_m) return Vec3(0.0f, 0.0f, moved.z);
+            const auto crotch = crotch_raise(moved);
+            // Without a place of its own it is one that its crotch tells, or its narrowest girth.
+            float from = own;
+            if (crotch)
+                from = own + *crotch;
+            else if (!stands_there)
+                from = own + levels.waist - narrowest(own);
+            const bool is_high = !crotch && !stands_there && from > levels.waist + kAboveWaist_m;
+            moved.y = (is_high ? from : sits_at(edge, from)) - own;
+            if (crotch) moved.y = std::min(moved.y, *crotch);
+            moved.z += only_if_far(behind_by(moved));
+        }
         return moved;
     }
 
-    /// Limbs follow sleeves and legs.
-    Stance stance(const Vec3& moved) const {
+    /// Limbs follow sleeves and legs, each as it crosses the least cloth.
+    Stance stance(const SkeletonProbe& probe, const Vec3& moved, bool has_sleeves) const {
         Stance out;
-        for (const auto& [limb, lower] :
-             {std::pair(Limb::left_arm, Limb::left_forearm), std::pair(Limb::right_arm, Limb::right_forearm),
-              std::pair(Limb::left_leg, Limb::left_shank), std::pair(Limb::right_leg, Limb::right_shank)})
-            follow(limb, lower, moved, out);
+        const std::vector<uint32_t>* taken[2] = {nullptr, nullptr};
+        for (const auto& [limb, lower, is_arm] : {std::tuple(Limb::left_arm, Limb::left_forearm, true),
+                                                  std::tuple(Limb::right_arm, Limb::right_forearm, true),
+                                                  std::tuple(Limb::left_leg, Limb::left_shank, false),
+                                                  std::tuple(Limb::right_leg, Limb::right_shank, false)}) {
+            if (is_arm && !has_sleeves) continue;
+            const auto* opening = end_of(limb, moved);
+            if (!opening || opening == taken[0] || opening == taken[1]) continue;
+            if (is_arm) taken[limb == Limb::right_arm] = opening;
+            Stance best = out;
+            size_t least = SIZE_MAX;
+            for (const Bend bend : {Bend::by_sleeve, Bend::straight, Bend::as_ours}) {
+                Stance tried = out;
+                follow(limb, lower, *opening, bend, moved, tried);
+                const size_t crossed = probe.crossed(*cloth_, moved, tried, limb);
+                if (crossed < least) least = crossed, best = tried;
+            }
+            out = best;
+        }
         return out;
     }
 
@@ -184,6 +200,20 @@ private:
         }
         // Between two steps it stays where it is.
         return least < kStep_m ? own : best;
+    }
+
+    /// By how much the cloth lies too far back where hips are, or at its upper end below them.
+    float behind_by(const Vec3& moved) const {
+        constexpr float kBelowEdge_m = 0.06f;
+        const float y = std::min(body_.outline().levels().hip, box_.high.y + moved.y - kBelowEdge_m);
+        const Section cloth = cut(places_, indices_, Vec3(0, y - moved.y, 0), Vec3(0, 1, 0)),
+                      skin = cut(body_.positions(), body_.indices(), Vec3(0, y, 0), Vec3(0, 1, 0));
+        Box of_cloth, of_skin;
+        for (const Vec2& p : cloth.points()) of_cloth.add(cloth.lift(p));
+        const float breadth = of_cloth.high.x - of_cloth.low.x;
+        for (const Vec2& p : skin.points())
+            if (const Vec3 at = skin.lift(p); std::abs(at.x) < 0.5f * breadth) of_skin.add(at);
+        return breadth > 0.0f ? of_skin.middle().z - of_cloth.middle().z - moved.z : 0.0f;
     }
 
     /// Height at which the cloth is narrowest, at its upper edge or in the trunk's length below.
@@ -222,7 +252,7 @@ private:
     /// The opening by which a limb leaves the cloth: of those that lie on its side of the body alone, that
     /// which is furthest out, or down.
     const std::vector<uint32_t>* end_of(Limb limb, const Vec3& moved) const {
-        constexpr float kLeast_m = 0.12f, kMiddle_m = 0.02f;
+        constexpr float kLeast_m = 0.12f, kMiddle_m = 0.02f, kHand_m = 0.25f;
         const bool is_arm = limb == Limb::left_arm || limb == Limb::right_arm;
         const float side = body_.root(limb).x < 0.0f ? -1.0f : 1.0f;
         const TailorLevels& levels = body_.outline().levels();
@@ -235,7 +265,7 @@ private:
                 }))
                 continue;
             const Vec3 at = centre(opening) + moved;
-            if (is_arm ? at.y < levels.hip - 0.1f : at.y > levels.hip) continue;
+            if (is_arm ? at.y < levels.hip - kHand_m : at.y > levels.hip) continue;
             const float far_out = is_arm ? side * at.x : -at.y;
             if (far_out > furthest) furthest = far_out, best = &opening;
         }
@@ -267,27 +297,27 @@ private:
         return section.lift(0.5f * (box.minimum + box.maximum));
     }
 
-    void follow(Limb limb, Limb lower, const Vec3& moved, Stance& stance) const {
-        const auto* opening = end_of(limb, moved);
-        if (!opening) return;
-        constexpr float kAtRoot_m = 0.1f, kBeyond = 0.2f, kAsOurs_rad = 0.05f;
+    enum class Bend { by_sleeve, straight, as_ours };
+    void follow(Limb limb, Limb lower, const std::vector<uint32_t>& opening, Bend bend, const Vec3& moved,
+                Stance& stance) const {
+        constexpr float kAtRoot_m = 0.1f, kBeyond = 0.2f, kAsOurs_rad = 0.05f, kElbow = 0.6f;
         const Vec3 root = body_.root(limb), joint = body_.end(limb), wrist = body_.end(lower),
-                   end = centre(*opening) + moved;
+                   end = centre(opening) + moved;
         const float out = glm::length(end - root), upper = glm::length(joint - root),
                     whole = upper + glm::length(wrist - joint);
         if (out < kAtRoot_m) return;  // without sleeves
         const Vec3 along = (end - root) / out;
-        std::optional<Vec3> elbow;
-        if (out > upper + kBeyond * (whole - upper))
-            if (const auto middle = middle_at(root + along * std::min(upper, 0.6f * out) - moved, along))
-                elbow = *middle + moved;
-        const Vec3 to_joint = elbow ? *elbow - root : end - root;
-        const Quat turn = shortest_arc(joint - root, to_joint);
+        const bool is_long = out > upper + kBeyond * (whole - upper);
+        Vec3 elbow = root + along * std::min(upper, kElbow * out);
+        if (bend == Bend::by_sleeve && is_long)
+            if (const auto middle = middle_at(elbow - moved, along)) elbow = *middle + moved;
+        const Vec3 from = bend == Bend::as_ours ? wrist - root : joint - root;
+        const Quat turn = shortest_arc(from, bend == Bend::by_sleeve && is_long ? elbow - root : along);
         if (angle_of(turn) > kAsOurs_rad) stance.of(limb) = turn;
-        if (!elbow) return;
+        if (!is_long || bend == Bend::as_ours) return;
         const Vec3 now = body_.carried(stance, limb, joint);
-        const Quat bend = shortest_arc(wrist - joint, glm::conjugate(stance.of(limb)) * (end - now));
-        if (angle_of(bend) > kAsOurs_rad) stance.of(lower) = bend;
+        const Quat bent = shortest_arc(wrist - joint, glm::conjugate(stance.of(limb)) * (end - now));
+        if (angle_of(bent) > kAsOurs_rad) stance.of(lower) = bent;
     }
 
     const CookBody& body_;
@@ -322,13 +352,13 @@ public:
     Alignment run() {
         const std::vector<Turn> all = turns();
         for (const Turn& turn : all) {
+            tried_.clear();
             if (options_.size_known) try_out(1.0f, turn, nullptr);
             for (const Unit& unit : units()) try_out(unit.metres / pieces_.unit_m, turn, &unit);
             if (best_ && best_->cost < kGood) break;
+            try_other_sizes(turn);
+            if (best_ && best_->cost < kGood) break;
         }
-        if (best_ && options_.scale == 0.0f && !options_.size_known && best_->found.girth_ratio > 0.0f &&
-            (best_->found.girth_ratio < kTight || best_->found.girth_ratio > kLoose))
-            try_out(best_->alignment.scale * kUsual / best_->found.girth_ratio, all[best_->turn], nullptr);
         if (!best_) fail(VFIT_ERROR_DATA, "it has no edge by which it could hang on a body");
         if (options_.stands_by != StandsBy::as_modelled) check();
         return best_->alignment;
@@ -343,6 +373,17 @@ private:
         size_t turn;
         float cost;
     };
+
+    /// Children and drawn figures: as large as makes the closest girth a usual one.
+    void try_other_sizes(const Turn& turn) {
+        if (options_.scale != 0.0f || options_.size_known) return;
+        constexpr size_t kFew = 3;  // bones that may cross it
+        const std::vector<std::pair<float, SkeletonProbe::Found>> tried = tried_;
+        for (const auto& [scale, found] : tried)
+            if (found.girth_ratio > 0.0f && found.pierced.size() <= kFew &&
+                (found.girth_ratio < kTight || found.girth_ratio > kLoose || !found.pierced.empty()))
+                try_out(scale * kUsual / found.girth_ratio, turn, nullptr);
+    }
 
     std::vector<Unit> units() const {
         std::vector<Unit> out;
@@ -370,14 +411,17 @@ private:
             for (const float inner : {kNeck, kOuter})
                 if (const auto way = candidate.by_shoulders(inner, options_.thickness_m))
                     ways.push_back(*way);
+        const size_t shoulder_ways = ways.size();
         if (by == StandsBy::any || by == StandsBy::waist)
             if (const auto way = candidate.by_waist(as_written)) ways.push_back(*way);
         for (size_t w = 0; w < ways.size(); ++w) {
             Way way;
-            way.alignment = {scale, turn.matrix, ways[w], candidate.stance(ways[w]), {}};
+            const bool by_waist = by != StandsBy::as_modelled && w >= shoulder_ways;
+            way.alignment = {scale, turn.matrix, ways[w], candidate.stance(probe_, ways[w], !by_waist), {}};
             way.found = probe_.find(candidate.cloth(), ways[w], way.alignment.stance);
             way.parted = probe_.parted(candidate.places(), candidate.openings(), ways[w],
                                        way.alignment.stance);
+            if (unit || options_.size_known) tried_.emplace_back(scale, way.found);
             way.turn = 0;
             for (const Turn& known : turns()) {
                 if (known.matrix == turn.matrix) break;
@@ -385,6 +429,7 @@ private:
             }
             way.cost = cost(way) + 0.1f * float(w);
             if (!options_.size_known && !is_stated(unit)) way.cost += kOtherScale;
+            if (getenv("VFIT_DBG")) { fprintf(stderr,"scale %.3f turn %zu way %zu moved %.2f %.2f %.2f ratio %.2f cost %.2f group %d%d%d%d%d pierced:",scale,way.turn,w,ways[w].x,ways[w].y,ways[w].z,way.found.girth_ratio,way.cost,way.parted.group[0],way.parted.group[1],way.parted.group[2],way.parted.group[3],way.parted.group[4]); for(auto&x:way.found.pierced)fprintf(stderr," %s,",x.c_str()); fprintf(stderr," at %s\n",shown(way.found.pierced_at).c_str()); }
             if (best_ && best_->cost <= way.cost) continue;
             note(way.alignment, turn, unit);
             best_ = std::move(way);
@@ -439,6 +484,7 @@ private:
     const CookBody& body_;
     const AlignmentOptions options_;
     SkeletonProbe probe_;
+    std::vector<std::pair<float, SkeletonProbe::Found>> tried_;  // of a turn, with their scales
     std::optional<Way> best_;
 };
 

@@ -7,8 +7,10 @@
 #include <set>
 #include <unordered_map>
 
+#include "body/mesh.h"
 #include "cook/model/outer_side.h"
 #include "core/error.h"
+#include "geometry/borders.h"
 #include "geometry/mesh_query.h"
 
 namespace vfit {
@@ -89,7 +91,12 @@ public:
         for (const Cell& cell : cells_) add_squares(cell);
         leave_out_what_is_no_cloth();
         part_sides_of_many();
-        for (int round = 0; round < 4; ++round) smooth(), onto_cloth();
+        leave_out_ears();
+        for (int round = 0; round < kRounds; ++round) {
+            places_ = smoothed();
+            onto_cloth();
+        }
+        even_out();
         return write();
     }
 
@@ -178,25 +185,56 @@ private:
         }
     }
 
-    /// The winding number goes on across openings, where no cloth is, or cloth that ends there.
+    using Side = std::pair<uint32_t, uint32_t>;
+    std::map<Side, std::vector<uint32_t>> triangles_at_sides() const {
+        std::map<Side, std::vector<uint32_t>> out;  // three times the triangle, and the corner where it begins
+        for (uint32_t t = 0; t < triangles_.size(); ++t)
+            for (uint32_t k = 0; k < 3; ++k)
+                out[std::minmax(triangles_[t][k], triangles_[t][(k + 1) % 3])].push_back(3 * t + k);
+        return out;
+    }
+
+    /// The winding number goes on across openings: away from the cloth, or across its end. What lies across it
+    /// but comes to no end is a fold.
     void leave_out_what_is_no_cloth() {
         constexpr float kOff = 0.9f, kAlong = 0.4f;  // of the side; cosine
-        std::erase_if(triangles_, [&](const std::array<uint32_t, 3>& t) {
+        std::vector<uint8_t> no_cloth(triangles_.size(), 0), ends(triangles_.size(), 0);
+        for (size_t i = 0; i < triangles_.size(); ++i) {
+            const auto& t = triangles_[i];
             const Vec3 &a = places_[t[0]], &b = places_[t[1]], &c = places_[t[2]];
             const Vec3 normal = glm::cross(b - a, c - a);
             const float length = glm::length(normal);
-            if (!(length > 0.0f)) return true;
             const MeshQuery::Closest cloth = cloth_.closest((a + b + c) / 3.0f);
-            return cloth.distance > kOff * side_m_ || glm::dot(normal / length, cloth.normal) < kAlong;
-        });
+            ends[i] = cloth.distance > kOff * side_m_;
+            no_cloth[i] = ends[i] || !(glm::dot(normal, cloth.normal) > kAlong * length);
+        }
+        const auto sides = triangles_at_sides();
+        for (const auto& [side, at] : sides)
+            if (at.size() == 1) ends[at[0] / 3] = 1;
+        std::vector<uint8_t> seen(triangles_.size(), 0), left_out(triangles_.size(), 0);
+        for (uint32_t first = 0; first < triangles_.size(); ++first) {
+            if (!no_cloth[first] || seen[first]) continue;
+            std::vector<uint32_t> patch{first};
+            seen[first] = 1;
+            bool has_end = false;
+            for (size_t i = 0; i < patch.size(); ++i) {
+                has_end |= ends[patch[i]] != 0;
+                const auto& t = triangles_[patch[i]];
+                for (size_t k = 0; k < 3; ++k)
+                    for (const uint32_t at : sides.at(std::minmax(t[k], t[(k + 1) % 3])))
+                        if (no_cloth[at / 3] && !seen[at / 3]) seen[at / 3] = 1, patch.push_back(at / 3);
+            }
+            for (const uint32_t t : patch) left_out[t] = has_end;
+        }
+        std::vector<std::array<uint32_t, 3>> kept;
+        for (size_t i = 0; i < triangles_.size(); ++i)
+            if (!left_out[i]) kept.push_back(triangles_[i]);
+        triangles_ = std::move(kept);
     }
 
     /// Where two sheets touch, they are parted again: triangles stay together over sides of two.
     void part_sides_of_many() {
-        std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> sides;
-        for (uint32_t t = 0; t < triangles_.size(); ++t)
-            for (size_t k = 0; k < 3; ++k)
-                sides[std::minmax(triangles_[t][k], triangles_[t][(k + 1) % 3])].push_back(3 * t + uint32_t(k));
+        const auto sides = triangles_at_sides();
         std::vector<uint32_t> parent(3 * triangles_.size());  // of corners: those that stay one vertex
         for (uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
         const auto root = [&](uint32_t i) {
@@ -204,7 +242,8 @@ private:
             return i;
         };
         for (const auto& [side, at] : sides) {
-            if (at.size() != 2) continue;
+            const auto begin = [&](uint32_t i) { return triangles_[i / 3][i % 3]; };
+            if (at.size() != 2 || begin(at[0]) == begin(at[1])) continue;
             for (const uint32_t vertex : {side.first, side.second}) {
                 std::array<uint32_t, 2> corners{};
                 for (size_t i = 0; i < 2; ++i)
@@ -223,28 +262,84 @@ private:
         places_ = std::move(places);
     }
 
-    /// Each to the middle of those beside it; of a border, along the border.
-    void smooth() {
-        std::map<std::pair<uint32_t, uint32_t>, int> count;
-        for (const auto& t : triangles_)
-            for (size_t k = 0; k < 3; ++k) ++count[std::minmax(t[k], t[(k + 1) % 3])];
-        std::vector<uint8_t> border(places_.size(), 0);
-        for (const auto& [side, n] : count)
-            if (n == 1) border[side.first] = border[side.second] = 1;
-        std::vector<Vec3> sum(places_.size(), Vec3(0.0f));
-        std::vector<float> beside(places_.size(), 0.0f);
-        for (const auto& [side, n] : count)
-            for (const auto& [a, b] : {side, std::pair(side.second, side.first)})
-                if (!border[a] || n == 1) sum[a] += places_[b], beside[a] += 1.0f;
-        for (size_t v = 0; v < places_.size(); ++v)
-            if (beside[v] > 0.0f) places_[v] = glm::mix(places_[v], sum[v] / beside[v], 0.5f);
+    /// Those that hang on one side only, and two that lie back to back: their tips would be smoothed flat.
+    void leave_out_ears() {
+        for (bool any = true; any;) {
+            std::vector<uint8_t> free_sides(triangles_.size(), 0);
+            std::map<std::array<uint32_t, 3>, size_t> known;
+            for (size_t i = 0; i < triangles_.size(); ++i) {
+                std::array<uint32_t, 3> sorted = triangles_[i];
+                std::sort(sorted.begin(), sorted.end());
+                if (const auto [it, fresh] = known.try_emplace(sorted, i); !fresh)
+                    free_sides[i] = free_sides[it->second] = 3;
+            }
+            for (const auto& [side, at] : triangles_at_sides())
+                if (at.size() == 1) ++free_sides[at[0] / 3];
+            std::vector<std::array<uint32_t, 3>> kept;
+            for (size_t i = 0; i < triangles_.size(); ++i)
+                if (free_sides[i] < 2) kept.push_back(triangles_[i]);
+            any = kept.size() < triangles_.size();
+            triangles_ = std::move(kept);
+        }
     }
 
+    std::vector<uint32_t> indices() const {
+        std::vector<uint32_t> out;
+        for (const auto& t : triangles_) out.insert(out.end(), t.begin(), t.end());
+        return out;
+    }
+
+    /// Each to the middle of those beside it; of a border, along the border, but for small holes, which would
+    /// shrink to nothing.
+    std::vector<Vec3> smoothed() const {
+        constexpr size_t kHole = 12;  // vertices
+        const auto sides = triangles_at_sides();
+        std::vector<uint8_t> border(places_.size(), 0), stays(places_.size(), 0);
+        for (const auto& [side, at] : sides)
+            if (at.size() == 1) border[side.first] = border[side.second] = 1;
+        for (const auto& loop : borders(indices()))
+            for (const uint32_t v : loop) stays[v] |= loop.size() < kHole;
+        std::vector<Vec3> sum(places_.size(), Vec3(0.0f));
+        std::vector<float> beside(places_.size(), 0.0f);
+        for (const auto& [side, at] : sides)
+            for (const auto& [a, b] : {side, std::pair(side.second, side.first)})
+                if (!border[a] || at.size() == 1) sum[a] += places_[b], beside[a] += 1.0f;
+        std::vector<Vec3> out = places_;
+        for (size_t v = 0; v < out.size(); ++v)
+            if (beside[v] > 0.0f && !stays[v]) out[v] = glm::mix(out[v], sum[v] / beside[v], 0.5f);
+        return out;
+    }
+
+    /// Along their normals, so that triangles stay even.
     void onto_cloth() {
         constexpr float kReach = 1.5f;
-        for (Vec3& p : places_) {
-            const MeshQuery::Closest cloth = cloth_.closest(p);
-            if (cloth.distance < kReach * side_m_) p = cloth.point;
+        std::vector<Vec3> normals;
+        compute_normals(places_, indices(), normals);
+        for (size_t v = 0; v < places_.size(); ++v) {
+            const MeshQuery::Closest cloth = cloth_.closest(places_[v]);
+            if (cloth.distance < kReach * side_m_)
+                places_[v] += glm::dot(cloth.point - places_[v], normals[v]) * normals[v];
+        }
+    }
+
+    /// Slivers that are left in sharp folds.
+    void even_out() {
+        constexpr int kRounds = 20;
+        constexpr float kLeastHeight = 0.15f;  // of the side
+        for (int round = 0; round < kRounds; ++round) {
+            std::vector<uint8_t> moves(places_.size(), 0);
+            bool any = false;
+            for (const auto& t : triangles_) {
+                const Vec3 &a = places_[t[0]], &b = places_[t[1]], &c = places_[t[2]];
+                const float longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+                if (glm::length(glm::cross(b - a, c - a)) >= kLeastHeight * side_m_ * longest) continue;
+                for (const uint32_t v : t) moves[v] = 1;
+                any = true;
+            }
+            if (!any) return;
+            const std::vector<Vec3> to = smoothed();
+            for (size_t v = 0; v < to.size(); ++v)
+                if (moves[v]) places_[v] = to[v];
         }
     }
 
@@ -261,6 +356,7 @@ private:
     }
 
     static constexpr size_t kMostCells = 400000;
+    static constexpr int kRounds = 4;  // after them it lies on the cloth, and triangles are even
     const Soup& soup_;
     float side_m_;
     OuterSide outer_;

@@ -136,8 +136,12 @@ private:
     /// Another layer lies behind it, which is less hidden on its far side.
     bool is_inner(uint32_t t, bool along_normal) const {
         const Vec3 inwards = along_normal ? -normal_[t] : normal_[t];
-        const auto hit = query_.cast(middle(t) + inwards * kOff_m, inwards, kThick_m);
-        if (!hit) return false;
+        // A layer may lie as close as rounding allows, so its own triangle is met as well.
+        constexpr float kNext_m = 2e-6f;
+        auto hit = query_.cast(middle(t), inwards, kThick_m);
+        for (float off = kNext_m; hit && hit->triangle == t && off < kOff_m; off *= 4.0f)
+            hit = query_.cast(middle(t) + inwards * off, inwards, kThick_m);
+        if (!hit || hit->triangle == t) return false;
         const auto out = [&](uint32_t of, const Vec3& way) {
             const Patch& patch = patches_[patch_of_[of]];
             return patch.out(glm::dot(patch.normal, way) > 0.0f);

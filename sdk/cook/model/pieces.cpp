@@ -316,6 +316,17 @@ std::vector<uint32_t> Soup::indices() const {
 
 Soup make_soup(const Model& model, float unit_m) { return SoupMaker(model, unit_m).run(); }
 
+Soup soup_of_joined(const Model& model, float unit_m) {
+    Soup out{&model, unit_m, model.positions, {}, {}};
+    for (Vec3& p : out.places) p *= unit_m;
+    for (uint32_t f = 0; f < model.faces.size(); ++f) {
+        const ModelCorner* c = &model.corners[model.faces[f].first_corner];
+        out.triangles.push_back(
+            {{c[0].position, c[1].position, c[2].position}, {c[0].uv, c[1].uv, c[2].uv}, f});
+    }
+    return out;
+}
+
 Pieces make_pieces(const Soup& soup) { return PiecesMaker(soup).run(); }
 
 }  // namespace vfit

@@ -29,6 +29,8 @@ struct Soup {
 
 /// VFIT_ERROR_DATA says what is no mesh, and where. model must outlive it.
 Soup make_soup(const Model& model, float unit_m);
+/// Of a model of triangles whose vertices are joined as they should be.
+Soup soup_of_joined(const Model& model, float unit_m);
 
 /// Each side is of two triangles, turned the same way, or of the border.
 struct Piece {

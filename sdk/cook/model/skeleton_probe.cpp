@@ -95,16 +95,31 @@ Vec3 SkeletonProbe::carried(const Stance& stance, std::optional<Limb> limb, cons
     return limb ? body_.carried(stance, *limb, place) : place;
 }
 
+std::optional<Vec3> SkeletonProbe::crossing(const Bone& bone, const MeshQuery& cloth, const Vec3& moved,
+                                            const Stance& stance) const {
+    const Vec3 from = carried(stance, bone.limb, bone.from), to = carried(stance, bone.limb, bone.to);
+    const float length = glm::length(to - from);
+    if (length == 0.0f) return std::nullopt;
+    const auto hit = cloth.cast(from - moved, (to - from) / length, length);
+    if (!hit) return std::nullopt;
+    return from + (to - from) * (hit->distance / length);
+}
+
+size_t SkeletonProbe::crossed(const MeshQuery& cloth, const Vec3& moved, const Stance& stance,
+                              Limb limb) const {
+    return size_t(std::count_if(bones_.begin(), bones_.end(), [&](const Bone& bone) {
+        return bone.limb && (*bone.limb == limb || CookBody::parent(*bone.limb) == limb) &&
+               crossing(bone, cloth, moved, stance);
+    }));
+}
+
 SkeletonProbe::Found SkeletonProbe::find(const MeshQuery& cloth, const Vec3& moved,
                                          const Stance& stance) const {
     Found out;
     for (const Bone& bone : bones_) {
-        const Vec3 from = carried(stance, bone.limb, bone.from), to = carried(stance, bone.limb, bone.to);
-        const float length = glm::length(to - from);
-        if (length == 0.0f) continue;
-        const auto hit = cloth.cast(from - moved, (to - from) / length, length);
-        if (!hit) continue;
-        if (out.pierced.empty()) out.pierced_at = from + (to - from) * (hit->distance / length);
+        const auto at = crossing(bone, cloth, moved, stance);
+        if (!at) continue;
+        if (out.pierced.empty()) out.pierced_at = *at;
         out.pierced.push_back(bone.name);
     }
     std::vector<float> ratios;

@@ -37,6 +37,9 @@ public:
     /// Cloth that is moved, about a body in that stance.
     Found find(const MeshQuery& cloth, const Vec3& moved, const Stance& stance) const;
 
+    /// How many of the bones of a limb cross it.
+    size_t crossed(const MeshQuery& cloth, const Vec3& moved, const Stance& stance, Limb limb) const;
+
     /// By which of the openings each end of the body leaves the cloth.
     Parted parted(std::span<const Vec3> places, const std::vector<std::vector<uint32_t>>& openings,
                   const Vec3& moved, const Stance& stance) const;
@@ -53,6 +56,9 @@ private:
         std::vector<float> skin_m;
         std::optional<Limb> limb;
     };
+    /// Where the bone meets the cloth.
+    std::optional<Vec3> crossing(const Bone& bone, const MeshQuery& cloth, const Vec3& moved,
+                                 const Stance& stance) const;
     void add_ring(const Vec3& centre, const Vec3& along, std::optional<Limb> limb);
     Vec3 carried(const Stance& stance, std::optional<Limb> limb, const Vec3& place) const;
 
