@@ -9,6 +9,7 @@
 #include "cook/body/cook_body.h"
 #include "cook/drape/grow_body.h"
 #include "cook/drape/upper_edge.h"
+#include "cook/model/caps.h"
 #include "cook/model/draw.h"
 #include "cook/model/envelope.h"
 #include "cook/model/pieces.h"
@@ -104,6 +105,8 @@ public:
                                                 options.alignment.unit_told))) {}
 
     std::vector<CookedGarment> run() {
+        if (const size_t caps = cut_caps(soup_))
+            notes_.push_back(text(caps, " ends that were closed by cloth were cut open"));
         std::exception_ptr fault;
         bool is_surface = false;
         if (options_.remake != Remake::always) {
@@ -121,8 +124,8 @@ public:
             make_anew();
             return cook_pieces(true);
         } catch (const Error&) {
-            // What is wrong with a surface is its author's to know; else it is what was found of it.
-            if (is_surface) std::rethrow_exception(fault);
+            // What is wrong with a surface is its author's to know; else it is what was found of the new one.
+            if (is_surface && !is_aligned_) std::rethrow_exception(fault);
             throw;
         }
     }
@@ -149,7 +152,9 @@ private:
         if (options_.cook.kind_told) how.kind = options_.cook.kind;
         how.thickness_m = options_.cook.drape.thickness_m;
         how.size_known = size_known;
+        is_aligned_ = false;
         alignment_ = align(pieces_, body_, how);
+        is_aligned_ = true;
         notes_.insert(notes_.end(), alignment_.notes.begin(), alignment_.notes.end());
         const float scale = alignment_.scale;
         for (std::vector<Vec3>* places : {&pieces_.places, &soup_.places})
@@ -161,6 +166,7 @@ private:
 
     std::vector<CookedGarment> cook_pieces(bool as_they_are) {
         const std::vector<WornPiece> worn = worn_pieces();
+        if (worn.empty()) fail(VFIT_ERROR_DATA, "the garment goes round nothing");
         std::vector<CookedGarment> out;
         std::set<std::string> names;
         for (const WornPiece& piece : worn) {
@@ -326,6 +332,7 @@ private:
         turn_outside_out(g, skin);
         validate_garment(g, fabrics_);
         out.round = goes_round(g.mesh.positions, g.mesh.indices, body_);
+        check_free(out.report, surface.indices.size() / 3);
         check_worn(out.round, options_.cook.kind_told ? options_.cook.kind : "");
         out.notes = surface.notes;
         if (anew_)
@@ -336,6 +343,15 @@ private:
         for (const auto& opening : surface.openings) out.openings_m.push_back(surface.length_of(opening));
         out.report.seconds = watch.ms() / 1000.0;
         return out;
+    }
+
+    /// A few places at an armpit or a collar are told; more is a garment that is not on.
+    static void check_free(const DrapeReport& report, size_t triangles) {
+        constexpr float kMost = 0.05f;
+        if (float(report.skin_crossings) > kMost * float(triangles))
+            fail(VFIT_ERROR_DATA, "the garment is not worn: where it came to rest, the skin goes through ",
+                 report.skin_crossings, " of its ", triangles, " triangles, most of them at the ",
+                 report.most_crossed);
     }
 
     struct Inside {
@@ -391,7 +407,7 @@ private:
     const CookBody body_;
     Soup soup_;
     Model envelope_;
-    bool anew_ = false, has_trims_ = false;
+    bool anew_ = false, has_trims_ = false, is_aligned_ = false;
     Pieces pieces_;
     Alignment alignment_;
     std::vector<std::string> notes_;

@@ -11,6 +11,9 @@
 
 namespace vfit {
 
+/// "left forearm".
+const char* part_name(BodyPart part);
+
 /// What turns about a joint; those that hang on another one stand before it.
 enum class Limb : uint8_t {
     left_shank,

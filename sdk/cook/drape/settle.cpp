@@ -42,8 +42,14 @@ public:
         look("at rest", places);
         out.positions = std::move(places);
         out.report.self_crossings = uint32_t(crossed_triangles(out.positions, cloth_.indices).size());
-        out.report.skin_crossings = uint32_t(
-            crossed_triangles({out.positions, cloth_.indices}, {body_.positions(), body_.indices()}).size());
+        const auto crossed =
+            crossed_triangles({out.positions, cloth_.indices}, {body_.positions(), body_.indices()});
+        out.report.skin_crossings = uint32_t(crossed.size());
+        std::array<size_t, kBodyPartCount> count{};
+        for (const auto& [cloth, skin] : crossed) ++count[size_t(body_.parts()[body_.indices()[3 * skin]])];
+        if (!crossed.empty())
+            out.report.most_crossed =
+                part_name(BodyPart(std::max_element(count.begin(), count.end()) - count.begin()));
         return out;
     }
 

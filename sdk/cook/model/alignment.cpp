@@ -74,6 +74,13 @@ public:
             for (const uint32_t v : piece.indices) box_.add(places_[v]);
         }
         cloth_.emplace(places_, indices_);
+        double flux = 0.0;
+        for (size_t i = 0; i + 2 < indices_.size(); i += 3) {
+            const Vec3 &a = places_[indices_[i]], &b = places_[indices_[i + 1]],
+                       &c = places_[indices_[i + 2]];
+            flux += double(glm::dot(glm::cross(b - a, c - a), (a + b + c) / 3.0f - box_.middle()));
+        }
+        if (flux < 0.0) outwards_ = -1.0f;
         const float x = box_.middle().x;
         x_ = only_if_far(x);
     }
@@ -169,8 +176,9 @@ public:
             const auto* opening = end_of(limb, moved);
             if (!opening || opening == taken[0] || opening == taken[1]) continue;
             if (is_arm) taken[limb == Limb::right_arm] = opening;
+            // Legs stand as ours do, where that will do.
             Stance best = out;
-            size_t least = SIZE_MAX;
+            size_t least = is_arm ? SIZE_MAX : probe.crossed(*cloth_, moved, out, limb);
             for (const Bend bend : {Bend::by_sleeve, Bend::straight, Bend::as_ours}) {
                 Stance tried = out;
                 follow(limb, lower, *opening, bend, moved, tried);
@@ -180,6 +188,29 @@ public:
             out = best;
         }
         return out;
+    }
+
+    /// Share of the cloth across which lies no body but other cloth, as in a sleeve without an arm.
+    float empty_share(const Vec3& moved, const Stance& stance) const {
+        constexpr size_t kSamples = 800;
+        constexpr float kTube_m = 0.25f, kOff_m = 0.002f;
+        const MeshQuery skin(body_.leaving(stance, 0.0f), body_.indices());
+        const size_t count = indices_.size() / 3, step = std::max<size_t>(1, count / kSamples);
+        double empty = 0.0, all = 0.0;
+        for (size_t t = 0; t < count; t += step) {
+            const Vec3 &a = places_[indices_[3 * t]], &b = places_[indices_[3 * t + 1]],
+                       &c = places_[indices_[3 * t + 2]];
+            const Vec3 across = glm::cross(b - a, c - a);
+            const float length = glm::length(across);
+            if (!(length > 0.0f)) continue;
+            const Vec3 inwards = -outwards_ * across / length, from = (a + b + c) / 3.0f + inwards * kOff_m;
+            all += double(length);
+            const auto cloth = cloth_->cast(from, inwards, kTube_m);
+            if (!cloth || glm::dot(cloth->normal, inwards) * outwards_ < 0.0f) continue;
+            const auto body = skin.cast(from + moved, inwards, cloth->distance);
+            if (!body && !skin.inside(from + moved)) empty += double(length);
+        }
+        return all > 0.0 ? float(empty / all) : 0.0f;
     }
 
 private:
@@ -234,6 +265,7 @@ private:
 
     /// What brings its crotch below the body's; none where there are no legs.
     std::optional<float> crotch_raise(const Vec3& moved) const {
+        if (!has_legs()) return std::nullopt;
         constexpr float kBelow_m = 0.02f, kAside_m = 0.06f, kStep_m = 0.01f, kFar_m = 8.0f;
         const auto lowest = [&](const MeshQuery& mesh, const Vec3& from) {
             std::optional<float> out;
@@ -247,6 +279,20 @@ private:
                    body = lowest(body_.skin(), {0.0f, -kStep_m, axis_z});
         if (!cloth || !body) return std::nullopt;
         return *body - kBelow_m - *cloth;
+    }
+
+    /// Openings on either side of its middle, in its lower half.
+    bool has_legs() const {
+        constexpr float kLeast_m = 0.2f, kMiddle_m = 0.01f;
+        const auto has = [&](float side) {
+            return std::any_of(openings_.begin(), openings_.end(), [&](const auto& opening) {
+                return length_around(places_, opening) > kLeast_m &&
+                       centre(opening).y < box_.middle().y &&
+                       std::all_of(opening.begin(), opening.end(),
+                                   [&](uint32_t v) { return side * (places_[v].x - x_) > -kMiddle_m; });
+            });
+        };
+        return has(-1.0f) && has(1.0f);
     }
 
     /// The opening by which a limb leaves the cloth: of those that lie on its side of the body alone, that
@@ -326,6 +372,7 @@ private:
     std::vector<std::vector<uint32_t>> openings_;
     std::optional<MeshQuery> cloth_;
     Box box_;
+    float outwards_ = 1.0f;  // its triangles' normals look out, or in (-1)
     float x_ = 0.0f;  // its middle, where that is not the body's
 };
 
@@ -365,24 +412,28 @@ public:
     }
 
 private:
-    static constexpr float kGood = 0.8f, kOtherScale = 0.3f;  // costs
+    static constexpr float kGood = 0.8f, kOtherScale = 0.3f, kMost = 2.0f, kNotItsKind = 10.0f;  // costs
     struct Way {
         Alignment alignment;
         SkeletonProbe::Found found;
         Parted parted;
         size_t turn;
-        float cost;
+        float cost, empty = 0.0f;
     };
 
     /// Children and drawn figures: as large as makes the closest girth a usual one.
     void try_other_sizes(const Turn& turn) {
         if (options_.scale != 0.0f || options_.size_known) return;
         constexpr size_t kFew = 3;  // bones that may cross it
+        constexpr float kSmallest = 0.45f, kLargest = 2.2f;
         const std::vector<std::pair<float, SkeletonProbe::Found>> tried = tried_;
-        for (const auto& [scale, found] : tried)
+        for (const auto& [scale, found] : tried) {
+            const float by = kUsual / std::max(found.girth_ratio, 0.01f);
+            if (by < kSmallest || by > kLargest) continue;
             if (found.girth_ratio > 0.0f && found.pierced.size() <= kFew &&
                 (found.girth_ratio < kTight || found.girth_ratio > kLoose || !found.pierced.empty()))
-                try_out(scale * kUsual / found.girth_ratio, turn, nullptr);
+                try_out(scale * by, turn, nullptr);
+        }
     }
 
     std::vector<Unit> units() const {
@@ -427,20 +478,29 @@ private:
                 if (known.matrix == turn.matrix) break;
                 ++way.turn;
             }
-            way.cost = cost(way) + 0.1f * float(w);
+            way.cost = cost(way, !unit && !options_.size_known) + 0.1f * float(w);
             if (!options_.size_known && !is_stated(unit)) way.cost += kOtherScale;
-            if (getenv("VFIT_DBG")) { fprintf(stderr,"scale %.3f turn %zu way %zu moved %.2f %.2f %.2f ratio %.2f cost %.2f group %d%d%d%d%d pierced:",scale,way.turn,w,ways[w].x,ways[w].y,ways[w].z,way.found.girth_ratio,way.cost,way.parted.group[0],way.parted.group[1],way.parted.group[2],way.parted.group[3],way.parted.group[4]); for(auto&x:way.found.pierced)fprintf(stderr," %s,",x.c_str()); fprintf(stderr," at %s\n",shown(way.found.pierced_at).c_str()); }
+            if (way.cost < kNotItsKind && (!best_ || way.cost < best_->cost)) {
+                constexpr float kEmpty = 0.2f;
+                way.empty = candidate.empty_share(ways[w], way.alignment.stance);
+                constexpr int kAllLimbs = 4;
+                if (way.empty > kEmpty && way.parted.count() < kAllLimbs) way.cost += kNotItsKind;
+            }
+            if (getenv("VFIT_DBG")) { fprintf(stderr,"scale %.3f turn %zu way %zu moved %.2f %.2f %.2f ratio %.2f empty %.2f cost %.2f group %d%d%d%d%d pierced:",scale,way.turn,w,ways[w].x,ways[w].y,ways[w].z,way.found.girth_ratio,way.empty,way.cost,way.parted.group[0],way.parted.group[1],way.parted.group[2],way.parted.group[3],way.parted.group[4]); for(auto&x:way.found.pierced)fprintf(stderr," %s,",x.c_str()); fprintf(stderr," at %s\n",shown(way.found.pierced_at).c_str()); }
             if (best_ && best_->cost <= way.cost) continue;
             note(way.alignment, turn, unit);
             best_ = std::move(way);
         }
     }
 
-    float cost(const Way& way) const {
-        constexpr float kPierced = 5.0f, kRoundNothing = 30.0f, kOtherTurn = 0.5f, kNotItsKind = 10.0f, kOffSize = 4.0f;
+    /// What has sleeves or legs shows how large it is; a tube may be a skirt, a hat or a sock.
+    float cost(const Way& way, bool is_of_other_size) const {
+        constexpr int kLimbs = 3;
+        constexpr float kPierced = 5.0f, kRoundNothing = 30.0f, kOtherTurn = 0.5f, kOffSize = 4.0f;
         float sum = kPierced * float(way.found.pierced.size());
         if (way.parted.round_nothing()) sum += kRoundNothing;
         if (!is_of_kind(way.parted)) sum += kNotItsKind;
+        if (is_of_other_size && way.parted.count() < kLimbs) sum += kNotItsKind;
         if (way.turn > 0) sum += kOtherTurn;
         const float ratio = way.found.girth_ratio;
         if (ratio <= 0.0f) return sum + kOffSize;
@@ -473,11 +533,19 @@ private:
             fail(VFIT_ERROR_DATA,
                  "the garment goes round nothing: neither head, arms nor legs leave it by openings of their "
                  "own, wherever it is held on the body");
+        if (!is_of_kind(best_->parted))
+            fail(VFIT_ERROR_DATA, "it has not the openings of its kind (", options_.kind, ")");
         if (!best_->found.pierced.empty())
             fail(VFIT_ERROR_DATA, "no place was found where the garment is worn: cloth at ",
                  shown(best_->found.pierced_at), " m closes the way of the ", best_->found.pierced[0],
                  best_->found.pierced.size() > 1 ? " (and others)" : "",
                  "; is it closed there, or is it no garment for a whole body?");
+        if (best_->empty > 0.0f && best_->cost >= kNotItsKind)
+            fail(VFIT_ERROR_DATA, "no place was found where the garment is worn: wherever it is held, ",
+                 std::lround(100.0f * best_->empty), " % of its cloth stays empty, as sleeves without arms");
+        const bool is_told = options_.unit_told || options_.scale != 0.0f || options_.size_known;
+        if (best_->cost >= (is_told ? kNotItsKind : kMost))
+            fail(VFIT_ERROR_DATA, "its size can't be told: no unit makes it fit (--unit or --scale says it)");
     }
 
     const Pieces& pieces_;

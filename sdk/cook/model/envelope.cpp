@@ -97,6 +97,7 @@ public:
             onto_cloth();
         }
         even_out();
+        leave_out_slivers();
         return write();
     }
 
@@ -341,6 +342,15 @@ private:
             for (size_t v = 0; v < to.size(); ++v)
                 if (moves[v]) places_[v] = to[v];
         }
+    }
+
+    void leave_out_slivers() {
+        constexpr float kLeastHeight = 0.02f;  // of the side
+        std::erase_if(triangles_, [&](const std::array<uint32_t, 3>& t) {
+            const Vec3 &a = places_[t[0]], &b = places_[t[1]], &c = places_[t[2]];
+            const float longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+            return !(glm::length(glm::cross(b - a, c - a)) >= kLeastHeight * side_m_ * longest);
+        });
     }
 
     Model write() const {

@@ -1,6 +1,7 @@
 // What the bones of a body meet of cloth that stands about them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -22,6 +23,7 @@ struct Parted {
     }
     bool legs_from_head() const { return group[left_leg] != group[head] || group[right_leg] != group[head]; }
     bool legs_from_each_other() const { return group[left_leg] != group[right_leg]; }
+    int count() const { return 1 + *std::max_element(group.begin(), group.end()); }
     bool round_nothing() const { return group == std::array<uint8_t, 5>{}; }
 };
 

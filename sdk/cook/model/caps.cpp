@@ -1,0 +1,140 @@
+#include "cook/model/caps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace vfit {
+
+namespace {
+
+using Side = std::pair<uint32_t, uint32_t>;
+
+class CapFinder {
+public:
+    explicit CapFinder(Soup& soup) : soup_(soup) {
+        for (uint32_t t = 0; t < soup.triangles.size(); ++t) {
+            const auto& v = soup.triangles[t].vertex;
+            const Vec3 across = glm::cross(soup.places[v[1]] - soup.places[v[0]], soup.places[v[2]] - soup.places[v[0]]);
+            const float length = glm::length(across);
+            area_.push_back(0.5f * length);
+            normal_.push_back(length > 0.0f ? across / length : Vec3(0.0f));
+            for (size_t k = 0; k < 3; ++k) sides_[std::minmax(v[k], v[(k + 1) % 3])].push_back(t);
+        }
+    }
+
+    size_t run() {
+        make_patches();
+        std::vector<uint8_t> left_out(soup_.triangles.size(), 0);
+        size_t count = 0;
+        for (const auto& [root, patch] : patches_) {
+            if (!is_cap(root, patch)) continue;
+            for (const uint32_t t : patch) left_out[t] = 1;
+            ++count;
+        }
+        if (count == 0) return 0;
+        std::vector<ModelTriangle> kept;
+        for (size_t t = 0; t < soup_.triangles.size(); ++t)
+            if (!left_out[t]) kept.push_back(soup_.triangles[t]);
+        soup_.triangles = std::move(kept);
+        return count;
+    }
+
+private:
+    uint32_t root(uint32_t t) {
+        while (parent_[t] != t) t = parent_[t] = parent_[parent_[t]];
+        return t;
+    }
+
+    /// Between sharp edges.
+    void make_patches() {
+        constexpr float kSharp = 0.5f;  // cosine
+        parent_.resize(soup_.triangles.size());
+        std::iota(parent_.begin(), parent_.end(), 0u);
+        for (const auto& [side, of] : sides_)
+            if (of.size() == 2 && glm::dot(normal_[of[0]], normal_[of[1]]) > kSharp)
+                parent_[root(of[0])] = root(of[1]);
+        for (uint32_t t = 0; t < soup_.triangles.size(); ++t) patches_[root(t)].push_back(t);
+    }
+
+    bool is_cap(uint32_t of, const std::vector<uint32_t>& patch) {
+        constexpr float kLeastRing_m = 0.1f, kMostRing_m = 2.5f, kFlat = 1.8f;
+        std::set<uint32_t> vertices;
+        std::set<Side> all, ring;
+        std::map<uint32_t, int> on_ring;
+        float area = 0.0f;
+        for (const uint32_t t : patch) {
+            area += area_[t];
+            const auto& v = soup_.triangles[t].vertex;
+            for (size_t k = 0; k < 3; ++k) {
+                const Side side = std::minmax(v[k], v[(k + 1) % 3]);
+                vertices.insert(v[k]);
+                all.insert(side);
+                const auto& beside = sides_.at(side);
+                if (beside.size() != 2) return false;  // it ends there, or is joined to several
+                if (root(beside[0]) == of && root(beside[1]) == of) continue;
+                ring.insert(side);
+            }
+        }
+        float around = 0.0f;
+        Vec3 middle(0.0f);
+        for (const Side& side : ring) {
+            ++on_ring[side.first], ++on_ring[side.second];
+            around += glm::length(soup_.places[side.second] - soup_.places[side.first]);
+            middle += (soup_.places[side.first] + soup_.places[side.second]) / (2.0f * float(ring.size()));
+        }
+        // A disc, about flat.
+        if (int(vertices.size()) - int(all.size()) + int(patch.size()) != 1) return false;
+        if (around < kLeastRing_m || around > kMostRing_m) return false;
+        if (area > kFlat * around * around / (4.0f * kPi)) return false;
+        if (!std::all_of(on_ring.begin(), on_ring.end(), [](const auto& v) { return v.second == 2; }))
+            return false;
+        return lies_across(of, patch, on_ring);
+    }
+
+    /// Square to the cloth about it, as the lid of a pocket or a button is not.
+    bool lies_across(uint32_t of, const std::vector<uint32_t>& patch, const std::map<uint32_t, int>& ring) {
+        constexpr float kAbout_m = 0.05f, kAcross = 0.5f;
+        Vec3 sum(0.0f);
+        for (const uint32_t t : patch) sum += area_[t] * normal_[t];
+        if (!(glm::length(sum) > 0.0f)) return false;
+        const Vec3 along = glm::normalize(sum);
+        std::set<uint32_t> seen(patch.begin(), patch.end());
+        std::vector<uint32_t> open(patch);
+        double across = 0.0, weight = 0.0;
+        while (!open.empty()) {
+            const uint32_t t = open.back();
+            open.pop_back();
+            const auto& v = soup_.triangles[t].vertex;
+            for (size_t k = 0; k < 3; ++k)
+                for (const uint32_t other : sides_.at(std::minmax(v[k], v[(k + 1) % 3]))) {
+                    if (root(other) == of || !seen.insert(other).second) continue;
+                    const auto& w = soup_.triangles[other].vertex;
+                    const Vec3 at = (soup_.places[w[0]] + soup_.places[w[1]] + soup_.places[w[2]]) / 3.0f;
+                    float off = INFINITY;
+                    for (const auto& [vertex, count] : ring)
+                        off = std::min(off, glm::length(soup_.places[vertex] - at));
+                    if (off > kAbout_m) continue;
+                    across += double(area_[other] * std::abs(glm::dot(normal_[other], along)));
+                    weight += double(area_[other]);
+                    open.push_back(other);
+                }
+        }
+        return weight > 0.0 && across < double(kAcross) * weight;
+    }
+
+    Soup& soup_;
+    std::vector<float> area_;
+    std::vector<Vec3> normal_;
+    std::map<Side, std::vector<uint32_t>> sides_;
+    std::vector<uint32_t> parent_;
+    std::map<uint32_t, std::vector<uint32_t>> patches_;
+};
+
+}  // namespace
+
+size_t cut_caps(Soup& soup) { return CapFinder(soup).run(); }
+
+}  // namespace vfit
