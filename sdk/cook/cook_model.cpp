@@ -1,8 +1,10 @@
 #include "cook/cook_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <set>
 
 #include "cloth/garment/cut.h"
@@ -105,15 +107,13 @@ public:
                                                 options.alignment.unit_told))) {}
 
     std::vector<CookedGarment> run() {
-        if (const size_t caps = cut_caps(soup_))
-            notes_.push_back(text(caps, " ends that were closed by cloth were cut open"));
         std::exception_ptr fault;
         bool is_surface = false;
         if (options_.remake != Remake::always) {
             try {
                 pieces_ = make_pieces(soup_);
                 is_surface = true;
-                bring_to_body(false);
+                bring_to_body_open([&](const Soup& soup) { return make_pieces(soup); });
                 return cook_pieces(options_.remake == Remake::never);
             } catch (const Error&) {
                 if (options_.remake == Remake::never) throw;
@@ -136,14 +136,43 @@ private:
     /// What is simulated is a surface of its own; what was modelled is drawn.
     void make_anew() {
         anew_ = true;
-        for (int round = 0; round < 2; ++round) {
-            envelope_ = envelope_of(soup_, kSide_m);
-            pieces_ = make_pieces(soup_of_joined(envelope_, soup_.unit_m));
-            const float scale = bring_to_body(round > 0);
-            // Its triangles are as large as they should be in the unit that was taken at first.
-            constexpr float kSame = 1.2f;
-            if (scale < kSame && scale > 1.0f / kSame) return;
+        bring_to_body_open([&](const Soup& soup) {
+            // Of what is as large as a tent, for now, coarser ones.
+            constexpr float kMostArea_m2 = 6.0f;
+            float area_m2 = 0.0f;
+            for (const ModelTriangle& t : soup.triangles) area_m2 += area_of(soup.places, t);
+            envelope_ = envelope_of(soup, kSide_m * std::max(1.0f, std::sqrt(area_m2 / kMostArea_m2)));
+            return make_pieces(soup_of_joined(envelope_, soup.unit_m));
+        });
+    }
+
+    /// With all ends open that may be closed by cloth; then without what was in the way alone, and in the size
+    /// that was found.
+    void bring_to_body_open(const std::function<Pieces(const Soup&)>& pieces_of) {
+        const std::vector<std::vector<uint32_t>> caps = find_caps(soup_);
+        pieces_ = pieces_of(without(soup_, caps));
+        const float scale = bring_to_body(false);
+        const SkeletonProbe probe(body_);
+        const std::vector<uint32_t> all = soup_.indices();
+        std::vector<std::vector<uint32_t>> in_the_way;
+        for (const auto& cap : caps) {
+            std::vector<uint32_t> indices;
+            for (const uint32_t t : cap) indices.insert(indices.end(), &all[3 * t], &all[3 * t] + 3);
+            if (probe.is_in_the_way(MeshQuery(soup_.places, indices), alignment_.moved, alignment_.stance))
+                in_the_way.push_back(cap);
         }
+        // Triangles made anew are as large as they should be in the unit that was taken at first.
+        constexpr float kSame = 1.2f;
+        const bool is_same = scale < kSame && scale > 1.0f / kSame;
+        if (in_the_way.size() == caps.size() && (is_same || !anew_)) {
+            soup_ = without(soup_, in_the_way);
+        } else {
+            soup_ = without(soup_, in_the_way);
+            pieces_ = pieces_of(soup_);
+            bring_to_body(true);
+        }
+        if (!in_the_way.empty())
+            notes_.push_back(text(in_the_way.size(), " ends that were closed by cloth were cut open"));
     }
 
     /// Places all in metres as the body has them, but for being moved. Returns by how much they were scaled.
@@ -318,6 +347,7 @@ private:
             if (options_.cook.drape.watch) options_.cook.drape.watch("grown", places);
         }
         push_out(skin, thickness, places);
+        if (out.report.hangs_on == HangsOn::shoulders) hold = on_shoulders(places);
         const Draped draped = settle(cloth, std::move(places), hold, body_, options_.cook.drape, jobs_);
         const DrapeReport placed = out.report;
         out.report = draped.report;
@@ -332,6 +362,8 @@ private:
         turn_outside_out(g, skin);
         validate_garment(g, fabrics_);
         out.round = goes_round(g.mesh.positions, g.mesh.indices, body_);
+        if (worn.parted.over_shoulder()) out.round.push_back("shoulders");
+        check_still_on(worn, g, surface);
         check_free(out.report, surface.indices.size() / 3);
         check_worn(out.round, options_.cook.kind_told ? options_.cook.kind : "");
         out.notes = surface.notes;
@@ -345,6 +377,18 @@ private:
         return out;
     }
 
+    /// Each limb leaves it by the openings by which it did when it was put on.
+    void check_still_on(const WornPiece& worn, const Garment& g, const Surface& surface) const {
+        const Parted now =
+            SkeletonProbe(body_).parted(g.mesh.positions, surface.openings, Vec3(0.0f), Stance());
+        constexpr std::array<const char*, 5> kEnds = {"head", "left arm", "right arm", "left leg", "right leg"};
+        for (size_t a = 0; a < kEnds.size(); ++a)
+            for (size_t b = 0; b < a; ++b)
+                if ((now.group[a] == now.group[b]) != (worn.parted.group[a] == worn.parted.group[b]))
+                    fail(VFIT_ERROR_DATA, "the garment comes off: when it had fallen, the ", kEnds[a],
+                         " was no longer in it as when it was put on");
+    }
+
     /// A few places at an armpit or a collar are told; more is a garment that is not on.
     static void check_free(const DrapeReport& report, size_t triangles) {
         constexpr float kMost = 0.05f;
@@ -352,6 +396,21 @@ private:
             fail(VFIT_ERROR_DATA, "the garment is not worn: where it came to rest, the skin goes through ",
                  report.skin_crossings, " of its ", triangles, " triangles, most of them at the ",
                  report.most_crossed);
+    }
+
+    /// What lies on the shoulders stays there while the rest falls.
+    Hold on_shoulders(const std::vector<Vec3>& places) const {
+        constexpr float kNeck_m = 0.03f, kBelowJoint_m = 0.03f, kOver_m = 0.04f, kUpwards = 0.6f;
+        const Vec3 joint = body_.outline().left_shoulder();
+        Hold hold;
+        hold.worn_by = false;
+        hold.slack_m = 0.02f;
+        for (const Vec3& p : places) {
+            const bool is_there = std::abs(p.x) > kNeck_m && std::abs(p.x) < joint.x && p.y > joint.y - kBelowJoint_m;
+            const auto closest = body_.skin().closest(p);
+            hold.of.push_back(is_there && closest.distance < kOver_m && closest.normal.y > kUpwards);
+        }
+        return hold;
     }
 
     struct Inside {

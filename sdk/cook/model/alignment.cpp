@@ -193,7 +193,7 @@ public:
     /// Share of the cloth across which lies no body but other cloth, as in a sleeve without an arm.
     float empty_share(const Vec3& moved, const Stance& stance) const {
         constexpr size_t kSamples = 800;
-        constexpr float kTube_m = 0.25f, kOff_m = 0.002f;
+        constexpr float kTube_m = 0.25f, kLining_m = 0.03f;
         const MeshQuery skin(body_.leaving(stance, 0.0f), body_.indices());
         const size_t count = indices_.size() / 3, step = std::max<size_t>(1, count / kSamples);
         double empty = 0.0, all = 0.0;
@@ -203,7 +203,7 @@ public:
             const Vec3 across = glm::cross(b - a, c - a);
             const float length = glm::length(across);
             if (!(length > 0.0f)) continue;
-            const Vec3 inwards = -outwards_ * across / length, from = (a + b + c) / 3.0f + inwards * kOff_m;
+            const Vec3 inwards = -outwards_ * across / length, from = (a + b + c) / 3.0f + inwards * kLining_m;
             all += double(length);
             const auto cloth = cloth_->cast(from, inwards, kTube_m);
             if (!cloth || glm::dot(cloth->normal, inwards) * outwards_ < 0.0f) continue;
@@ -298,7 +298,7 @@ private:
     /// The opening by which a limb leaves the cloth: of those that lie on its side of the body alone, that
     /// which is furthest out, or down.
     const std::vector<uint32_t>* end_of(Limb limb, const Vec3& moved) const {
-        constexpr float kLeast_m = 0.12f, kMiddle_m = 0.02f, kHand_m = 0.25f;
+        constexpr float kLeast_m = 0.12f, kMiddle_m = -0.03f, kHand_m = 0.25f;
         const bool is_arm = limb == Limb::left_arm || limb == Limb::right_arm;
         const float side = body_.root(limb).x < 0.0f ? -1.0f : 1.0f;
         const TailorLevels& levels = body_.outline().levels();
@@ -400,7 +400,7 @@ public:
         const std::vector<Turn> all = turns();
         for (const Turn& turn : all) {
             tried_.clear();
-            if (options_.size_known) try_out(1.0f, turn, nullptr);
+            if (options_.size_known || units().empty()) try_out(1.0f, turn, nullptr);
             for (const Unit& unit : units()) try_out(unit.metres / pieces_.unit_m, turn, &unit);
             if (best_ && best_->cost < kGood) break;
             try_other_sizes(turn);
@@ -425,14 +425,14 @@ private:
     void try_other_sizes(const Turn& turn) {
         if (options_.scale != 0.0f || options_.size_known) return;
         constexpr size_t kFew = 3;  // bones that may cross it
-        constexpr float kSmallest = 0.45f, kLargest = 2.2f;
+        constexpr float kSmallest = 0.3f, kLargest = 3.0f;
         const std::vector<std::pair<float, SkeletonProbe::Found>> tried = tried_;
         for (const auto& [scale, found] : tried) {
             const float by = kUsual / std::max(found.girth_ratio, 0.01f);
             if (by < kSmallest || by > kLargest) continue;
             if (found.girth_ratio > 0.0f && found.pierced.size() <= kFew &&
                 (found.girth_ratio < kTight || found.girth_ratio > kLoose || !found.pierced.empty()))
-                try_out(scale * by, turn, nullptr);
+                try_out(scale * by, turn, nullptr, false);
         }
     }
 
@@ -448,7 +448,7 @@ private:
 
     bool is_stated(const Unit* unit) const { return unit && unit->metres == options_.unit_m; }
 
-    void try_out(float scale, const Turn& turn, const Unit* unit) {
+    void try_out(float scale, const Turn& turn, const Unit* unit, bool is_first = true) {
         if (options_.scale != 0.0f && !options_.size_known) scale *= options_.scale;
         const Candidate candidate(pieces_, body_, scale, turn.matrix);
         const bool as_written =
@@ -470,26 +470,52 @@ private:
             const bool by_waist = by != StandsBy::as_modelled && w >= shoulder_ways;
             way.alignment = {scale, turn.matrix, ways[w], candidate.stance(probe_, ways[w], !by_waist), {}};
             way.found = probe_.find(candidate.cloth(), ways[w], way.alignment.stance);
-            way.parted = probe_.parted(candidate.places(), candidate.openings(), ways[w],
+            if (by != StandsBy::as_modelled) look_beside(candidate, by_waist, way);
+            way.parted = probe_.parted(candidate.places(), candidate.openings(), way.alignment.moved,
                                        way.alignment.stance);
-            if (unit || options_.size_known) tried_.emplace_back(scale, way.found);
+            if (is_first) tried_.emplace_back(scale, way.found);
             way.turn = 0;
             for (const Turn& known : turns()) {
                 if (known.matrix == turn.matrix) break;
                 ++way.turn;
             }
-            way.cost = cost(way, !unit && !options_.size_known) + 0.1f * float(w);
+            way.cost = cost(way, !is_first) + 0.1f * float(w);
             if (!options_.size_known && !is_stated(unit)) way.cost += kOtherScale;
             if (way.cost < kNotItsKind && (!best_ || way.cost < best_->cost)) {
                 constexpr float kEmpty = 0.2f;
-                way.empty = candidate.empty_share(ways[w], way.alignment.stance);
+                way.empty = candidate.empty_share(way.alignment.moved, way.alignment.stance);
                 constexpr int kAllLimbs = 4;
                 if (way.empty > kEmpty && way.parted.count() < kAllLimbs) way.cost += kNotItsKind;
             }
-            if (getenv("VFIT_DBG")) { fprintf(stderr,"scale %.3f turn %zu way %zu moved %.2f %.2f %.2f ratio %.2f empty %.2f cost %.2f group %d%d%d%d%d pierced:",scale,way.turn,w,ways[w].x,ways[w].y,ways[w].z,way.found.girth_ratio,way.empty,way.cost,way.parted.group[0],way.parted.group[1],way.parted.group[2],way.parted.group[3],way.parted.group[4]); for(auto&x:way.found.pierced)fprintf(stderr," %s,",x.c_str()); fprintf(stderr," at %s\n",shown(way.found.pierced_at).c_str()); }
+            if (getenv("VFIT_DBG")) { fprintf(stderr,"scale %.3f turn %zu way %zu moved %.2f %.2f %.2f ratio %.2f empty %.2f cost %.2f group %d%d%d%d%d pierced:",scale,way.turn,w,way.alignment.moved.x,way.alignment.moved.y,way.alignment.moved.z,way.found.girth_ratio,way.empty,way.cost,way.parted.group[0],way.parted.group[1],way.parted.group[2],way.parted.group[3],way.parted.group[4]); for(auto&x:way.found.pierced)fprintf(stderr," %s,",x.c_str()); fprintf(stderr," at %s\n",shown(way.found.pierced_at).c_str()); }
             if (best_ && best_->cost <= way.cost) continue;
             note(way.alignment, turn, unit);
             best_ = std::move(way);
+        }
+    }
+
+    /// Where few bones cross it, the nearest place where fewer do: bodies stoop and carry their shoulders as
+    /// they like.
+    void look_beside(const Candidate& candidate, bool by_waist, Way& way) const {
+        constexpr size_t kFew = 5;
+        constexpr int kSteps = 4;
+        constexpr float kStep_m = 0.015f;
+        if (way.found.pierced.empty() || way.found.pierced.size() > kFew) return;
+        std::vector<Vec2> offsets;
+        for (int y = -kSteps; y <= kSteps; ++y)
+            for (int z = -kSteps; z <= kSteps; ++z)
+                offsets.push_back(kStep_m * Vec2(float(y), float(z)));
+        std::stable_sort(offsets.begin(), offsets.end(),
+                         [](const Vec2& a, const Vec2& b) { return glm::dot(a, a) < glm::dot(b, b); });
+        const Vec3 from = way.alignment.moved;
+        for (const Vec2& offset : offsets) {
+            if (way.found.pierced.empty()) return;
+            const Vec3 moved = from + Vec3(0.0f, offset.x, offset.y);
+            const Stance stance = candidate.stance(probe_, moved, !by_waist);
+            SkeletonProbe::Found found = probe_.find(candidate.cloth(), moved, stance);
+            if (found.pierced.size() >= way.found.pierced.size()) continue;
+            way.found = std::move(found);
+            way.alignment.moved = moved, way.alignment.stance = stance;
         }
     }
 
@@ -560,13 +586,15 @@ private:
 
 float plausible_unit(const Model& model, float stated_m, bool told) {
     const float size = largest_extent(model);
+    constexpr float kPoint = 1e-9f;
+    if (!(size > kPoint)) fail(VFIT_ERROR_DATA, "all of the mesh lies at one place");
     if (is_garments(size * stated_m)) return stated_m;
     float best = 0.0f;
     for (const Unit& unit : kUnits)
         if (is_garments(size * unit.metres) &&
             (best == 0.0f || std::abs(std::log(size * unit.metres)) < std::abs(std::log(size * best))))
             best = unit.metres;
-    if (!told && best > 0.0f) return best;
+    if (!told) return best > 0.0f ? best : 1.0f / size;
     std::string fitting;
     for (const Unit& unit : kUnits)
         if (is_garments(size * unit.metres))

@@ -33,8 +33,8 @@ struct Alignment {
     Vec3 place(const Vec3& p) const { return turn * (scale * p) + moved; }
 };
 
-/// A unit in which the numbers of a model are as large as a garment: the stated one if it may be.
-/// VFIT_ERROR_DATA where none is.
+/// A unit in which the numbers of a model are as large as a garment: the stated one if it may be;
+/// where none is, that in which the model is a metre large. VFIT_ERROR_DATA where a told one makes it none.
 float plausible_unit(const Model& model, float stated_m, bool told);
 
 /// All pieces were modelled about one body. The way is taken in which its bones cross no cloth, and leave it

@@ -14,7 +14,7 @@ using Side = std::pair<uint32_t, uint32_t>;
 
 class CapFinder {
 public:
-    explicit CapFinder(Soup& soup) : soup_(soup) {
+    explicit CapFinder(const Soup& soup) : soup_(soup) {
         for (uint32_t t = 0; t < soup.triangles.size(); ++t) {
             const auto& v = soup.triangles[t].vertex;
             const Vec3 across = glm::cross(soup.places[v[1]] - soup.places[v[0]], soup.places[v[2]] - soup.places[v[0]]);
@@ -25,21 +25,22 @@ public:
         }
     }
 
-    size_t run() {
-        make_patches();
-        std::vector<uint8_t> left_out(soup_.triangles.size(), 0);
-        size_t count = 0;
-        for (const auto& [root, patch] : patches_) {
-            if (!is_cap(root, patch)) continue;
-            for (const uint32_t t : patch) left_out[t] = 1;
-            ++count;
+    std::vector<std::vector<uint32_t>> run() {
+        std::vector<std::vector<uint32_t>> out;
+        std::vector<uint8_t> taken(soup_.triangles.size(), 0);
+        // Edges may be rounded.
+        for (const float sharp : {0.5f, 0.77f, 0.9f}) {
+            make_patches(sharp);
+            for (const auto& [root, patch] : patches_) {
+                if (taken[root] || !is_cap(root, patch)) continue;
+                std::vector<uint32_t> cap = patch;
+                for (const uint32_t t : pit_about(root, patch)) cap.push_back(t);
+                std::erase_if(cap, [&](uint32_t t) { return taken[t] != 0; });
+                for (const uint32_t t : cap) taken[t] = 1;
+                out.push_back(std::move(cap));
+            }
         }
-        if (count == 0) return 0;
-        std::vector<ModelTriangle> kept;
-        for (size_t t = 0; t < soup_.triangles.size(); ++t)
-            if (!left_out[t]) kept.push_back(soup_.triangles[t]);
-        soup_.triangles = std::move(kept);
-        return count;
+        return out;
     }
 
 private:
@@ -49,18 +50,18 @@ private:
     }
 
     /// Between sharp edges.
-    void make_patches() {
-        constexpr float kSharp = 0.5f;  // cosine
+    void make_patches(float cosine) {
+        patches_.clear();
         parent_.resize(soup_.triangles.size());
         std::iota(parent_.begin(), parent_.end(), 0u);
         for (const auto& [side, of] : sides_)
-            if (of.size() == 2 && glm::dot(normal_[of[0]], normal_[of[1]]) > kSharp)
+            if (of.size() == 2 && glm::dot(normal_[of[0]], normal_[of[1]]) > cosine)
                 parent_[root(of[0])] = root(of[1]);
         for (uint32_t t = 0; t < soup_.triangles.size(); ++t) patches_[root(t)].push_back(t);
     }
 
     bool is_cap(uint32_t of, const std::vector<uint32_t>& patch) {
-        constexpr float kLeastRing_m = 0.1f, kMostRing_m = 2.5f, kFlat = 1.8f;
+        constexpr float kLeastRing_m = 0.12f, kMostRing_m = 2.5f, kFlat = 1.8f;
         std::set<uint32_t> vertices;
         std::set<Side> all, ring;
         std::map<uint32_t, int> on_ring;
@@ -111,8 +112,7 @@ private:
             for (size_t k = 0; k < 3; ++k)
                 for (const uint32_t other : sides_.at(std::minmax(v[k], v[(k + 1) % 3]))) {
                     if (root(other) == of || !seen.insert(other).second) continue;
-                    const auto& w = soup_.triangles[other].vertex;
-                    const Vec3 at = (soup_.places[w[0]] + soup_.places[w[1]] + soup_.places[w[2]]) / 3.0f;
+                    const Vec3 at = middle_of(other);
                     float off = INFINITY;
                     for (const auto& [vertex, count] : ring)
                         off = std::min(off, glm::length(soup_.places[vertex] - at));
@@ -125,7 +125,45 @@ private:
         return weight > 0.0 && across < double(kAcross) * weight;
     }
 
-    Soup& soup_;
+    /// The walls of a pit of which the cap is the floor: a band that looks inwards.
+    std::vector<uint32_t> pit_about(uint32_t of, const std::vector<uint32_t>& patch) {
+        constexpr float kInwards = 0.5f, kDeep_m = 0.3f;
+        Vec3 middle(0.0f), along(0.0f);
+        float area = 0.0f;
+        for (const uint32_t t : patch) {
+            middle += area_[t] * middle_of(t), along += area_[t] * normal_[t];
+            area += area_[t];
+        }
+        middle /= area;
+        along = glm::normalize(along);
+        std::set<uint32_t> beside;
+        for (const uint32_t t : patch) {
+            const auto& v = soup_.triangles[t].vertex;
+            for (size_t k = 0; k < 3; ++k)
+                for (const uint32_t other : sides_.at(std::minmax(v[k], v[(k + 1) % 3])))
+                    if (root(other) != of) beside.insert(root(other));
+        }
+        std::vector<uint32_t> out;
+        for (const uint32_t wall : beside) {
+            float inwards = 0.0f, all = 0.0f, deep_m = 0.0f;
+            for (const uint32_t t : patches_.at(wall)) {
+                const Vec3 off = middle_of(t) - middle, up = glm::dot(off, along) * along;
+                if (glm::length(off - up) > 0.0f)
+                    inwards -= area_[t] * glm::dot(normal_[t], glm::normalize(off - up));
+                all += area_[t];
+                deep_m = std::max(deep_m, glm::length(up));
+            }
+            if (inwards > kInwards * all && deep_m < kDeep_m)
+                out.insert(out.end(), patches_.at(wall).begin(), patches_.at(wall).end());
+        }
+        return out;
+    }
+    Vec3 middle_of(uint32_t t) const {
+        const auto& v = soup_.triangles[t].vertex;
+        return (soup_.places[v[0]] + soup_.places[v[1]] + soup_.places[v[2]]) / 3.0f;
+    }
+
+    const Soup& soup_;
     std::vector<float> area_;
     std::vector<Vec3> normal_;
     std::map<Side, std::vector<uint32_t>> sides_;
@@ -135,6 +173,17 @@ private:
 
 }  // namespace
 
-size_t cut_caps(Soup& soup) { return CapFinder(soup).run(); }
+std::vector<std::vector<uint32_t>> find_caps(const Soup& soup) { return CapFinder(soup).run(); }
+
+Soup without(const Soup& soup, const std::vector<std::vector<uint32_t>>& lists) {
+    std::vector<uint8_t> left_out(soup.triangles.size(), 0);
+    for (const auto& list : lists)
+        for (const uint32_t t : list) left_out[t] = 1;
+    Soup out = soup;
+    out.triangles.clear();
+    for (size_t t = 0; t < soup.triangles.size(); ++t)
+        if (!left_out[t]) out.triangles.push_back(soup.triangles[t]);
+    return out;
+}
 
 }  // namespace vfit

@@ -142,6 +142,13 @@ SkeletonProbe::Found SkeletonProbe::find(const MeshQuery& cloth, const Vec3& mov
     return out;
 }
 
+bool SkeletonProbe::is_in_the_way(const MeshQuery& cloth, const Vec3& moved, const Stance& stance) const {
+    for (const auto& way : ways_)
+        for (const Bone& bone : way)
+            if (crossing(bone, cloth, moved, stance)) return true;
+    return false;
+}
+
 Parted SkeletonProbe::parted(std::span<const Vec3> places,
                              const std::vector<std::vector<uint32_t>>& openings, const Vec3& moved,
                              const Stance& stance) const {

@@ -42,6 +42,9 @@ public:
     /// How many of the bones of a limb cross it.
     size_t crossed(const MeshQuery& cloth, const Vec3& moved, const Stance& stance, Limb limb) const;
 
+    /// Whether a way to an end of the body, or on from there, crosses it.
+    bool is_in_the_way(const MeshQuery& cloth, const Vec3& moved, const Stance& stance) const;
+
     /// By which of the openings each end of the body leaves the cloth.
     Parted parted(std::span<const Vec3> places, const std::vector<std::vector<uint32_t>>& openings,
                   const Vec3& moved, const Stance& stance) const;
