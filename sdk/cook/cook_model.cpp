@@ -252,6 +252,8 @@ private:
             }
             if (const WornPiece* other = shell_of(piece, parted, out)) refuse_shell(piece, *other->piece);
             if (anew_ && parted.round_nothing()) continue;  // a part of it that stands off
+            for (const WornPiece& other : out)
+                if (!anew_ && goes_on_in(piece, *other.piece)) refuse_part(piece, *other.piece);
             if (parted.round_nothing() && !out.empty()) refuse_part(piece, *out.front().piece);
             out.push_back({&piece, parted, off_skin(piece)});
         }
@@ -284,6 +286,21 @@ private:
         return nullptr;
     }
 
+    /// An edge of one lies along an edge of the other, as where they should be sewn together.
+    bool goes_on_in(const Piece& piece, const Piece& other) const {
+        constexpr float kAlong_m = 0.006f;
+        for (const auto& edge : piece.openings)
+            for (const auto& beside : other.openings) {
+                const auto lies_along = [&](uint32_t v) {
+                    return std::any_of(beside.begin(), beside.end(), [&](uint32_t w) {
+                        return glm::length(pieces_.places[v] - pieces_.places[w]) < kAlong_m;
+                    });
+                };
+                if (std::all_of(edge.begin(), edge.end(), lies_along)) return true;
+            }
+        return false;
+    }
+
     [[noreturn]] void refuse_shell(const Piece& piece, const Piece& other) const {
         const MeshQuery cloth(pieces_.places, other.indices);
         double sum = 0.0;
@@ -301,7 +318,7 @@ private:
         fail(VFIT_ERROR_DATA, "the garment is in pieces: ", piece.triangles.size(), " triangles",
              material.empty() ? "" : " of material \"" + material + "\"", " (", pieces_.name_of(piece),
              ") are not joined to the others, ", std::round(nearest * 10000.0f) / 10.0f,
-             " mm away, and go round nothing by themselves; join them by common vertices");
+             " mm away; join them by common vertices");
     }
 
     /// as_they_are: else VFIT_ERROR_DATA where triangles are too small to be simulated well.

@@ -1315,6 +1315,41 @@ class Contract(unittest.TestCase):
                 run("cook", skirt, "--measures", bad, "--out", folder / "x.json"), "bad.yaml", "line 2"
             )
 
+    def test_meshes_of_others_are_worn_or_refused_by_name(self):
+        garments = pathlib.Path(SHARED) / "data/field/garments"
+        if not garments.exists():
+            self.skipTest("no shared/data/field/garments")
+        with tempfile.TemporaryDirectory() as folder:
+            made = pathlib.Path(folder) / "made.json"
+            suit = document(self, "cook", garments / "female_casualsuit01.obj", "--out", made, "--json")
+            trousers, shirt = suit["garments"]  # the innermost first
+            self.assertEqual(trousers["file"], str(made).replace("made", "made_trousers"))
+            self.assertEqual(shirt["kind"], "short_sleeves")
+            self.assertEqual((trousers["hangs_on"], shirt["hangs_on"]), ("waist", "shoulders"))
+            for one in trousers, shirt:
+                self.assertEqual((one["skin_crossings"], one["self_crossings"]), (0, 0))
+            worn = run("wear", f"{trousers['file']}+{shirt['file']}", "--draft", "--out", folder)
+            self.assertEqual(worn.returncode, 0, worn.stderr)
+            for name, warning in (
+                ("made_atorigin.obj", ""),
+                ("made_bom.obj", ""),
+                ("made_inch.obj", "inches (--unit in)"),
+                ("made_upsidedown.obj", "upside down"),
+                ("tshirt_tpose.glb", ""),
+                ("longsleeve_apose.glb", "3 ends that were closed by cloth"),
+            ):
+                cooked = document(self, "cook", garments / name, "--out", made, "--json")
+                self.assertEqual(cooked["hangs_on"], "shoulders", name)
+                self.assertLessEqual({"chest", "left arm", "right arm"}, set(cooked["goes_round"]), name)
+                self.assertEqual((cooked["skin_crossings"], cooked["self_crossings"]), (0, 0), name)
+                self.assertIn(warning, " ".join(cooked["warnings"]), name)
+            for name, reason in (("made_draco_header.glb", "Draco"), ("m_fedora.obj", "m_fedora.obj: ")):
+                self.check_failure(run("cook", garments / name, "--out", made), reason)
+            self.check_failure(
+                run("cook", garments / "made_inch.obj", "--kind", "trousers", "--out", made),
+                "made_inch.obj: ",
+            )
+
     def test_a_mesh_is_cooked_and_worn(self):
         rows, columns = 16, 40
         lines = ["mtllib skirt.mtl", "usemtl wool"]
@@ -1333,8 +1368,10 @@ class Contract(unittest.TestCase):
             (folder / "in").mkdir()
             mesh = folder / "in" / "skirt.OBJ"
             mesh.write_text("\n".join(lines))
+            found = document(self, "cook", mesh, "--out", folder / "found.json", "--json")
+            self.assertIn("centimetres (--unit cm)", " ".join(found["warnings"]))
             self.check_failure(
-                run("cook", mesh, "--out", folder / "skirt.json"), "skirt.OBJ", "centimetres", "--unit cm"
+                run("cook", mesh, "--unit", "m", "--out", folder / "skirt.json"), "skirt.OBJ", "--unit cm"
             )
             cooked = document(
                 self,

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <tuple>
 
@@ -479,7 +477,7 @@ private:
                 if (known.matrix == turn.matrix) break;
                 ++way.turn;
             }
-            way.cost = cost(way, !is_first) + 0.1f * float(w);
+            way.cost = cost(way, !is_first || (!unit && !options_.size_known)) + 0.1f * float(w);
             if (!options_.size_known && !is_stated(unit)) way.cost += kOtherScale;
             if (way.cost < kNotItsKind && (!best_ || way.cost < best_->cost)) {
                 constexpr float kEmpty = 0.2f;
@@ -487,7 +485,6 @@ private:
                 constexpr int kAllLimbs = 4;
                 if (way.empty > kEmpty && way.parted.count() < kAllLimbs) way.cost += kNotItsKind;
             }
-            if (getenv("VFIT_DBG")) { fprintf(stderr,"scale %.3f turn %zu way %zu moved %.2f %.2f %.2f ratio %.2f empty %.2f cost %.2f group %d%d%d%d%d pierced:",scale,way.turn,w,way.alignment.moved.x,way.alignment.moved.y,way.alignment.moved.z,way.found.girth_ratio,way.empty,way.cost,way.parted.group[0],way.parted.group[1],way.parted.group[2],way.parted.group[3],way.parted.group[4]); for(auto&x:way.found.pierced)fprintf(stderr," %s,",x.c_str()); fprintf(stderr," at %s\n",shown(way.found.pierced_at).c_str()); }
             if (best_ && best_->cost <= way.cost) continue;
             note(way.alignment, turn, unit);
             best_ = std::move(way);

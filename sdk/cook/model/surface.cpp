@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "core/error.h"
@@ -135,6 +136,7 @@ private:
 
     /// By a fan about its middle. False where that would have triangles without an area.
     bool close_hole(const std::vector<uint32_t>& loop, const std::map<Side, uint32_t>& sides) {
+        if (std::set<uint32_t>(loop.begin(), loop.end()).size() < loop.size()) return false;  // of two holes
         Vec3 middle(0.0f);
         for (const uint32_t v : loop) middle += places_[v] / float(loop.size());
         Vec2 uv(0.0f);

@@ -13,6 +13,7 @@
 #include "cook/model/gltf.h"
 #include "cook/model/obj.h"
 #include "cook/model/surface.h"
+#include "body/mesh.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "mesh_files.h"
@@ -175,17 +176,39 @@ TEST_F(MeshGarment, ComesToItsPlaceFromAnotherBodys) {
     EXPECT_EQ(mens.report.skin_crossings, 0u);
     EXPECT_EQ(mens.report.self_crossings, 0u);
     EXPECT_TRUE(has_note(mens.notes, "cm too far forward"));
-    EXPECT_TRUE(has_note(mens.notes, "of the vertices lay in the default body"));
+    EXPECT_TRUE(has_note(mens.notes, "of the vertices lay in the body"));
 }
 
-TEST_F(MeshGarment, SmallTrianglesSettleAsWell) {
+TEST_F(MeshGarment, SmallTrianglesAreDrawnOnLargerOnes) {
     TubeMesh fine;
     fine.columns = 120, fine.rows = 60;
     const CookedGarment cooked = cook("fine.obj", obj_of(fine));
+    const Garment& g = cooked.garment;
     EXPECT_EQ(cooked.report.self_crossings, 0u);
     EXPECT_EQ(cooked.report.skin_crossings, 0u);
-    EXPECT_LT(cooked.report.strain_p99, 0.05f);
-    EXPECT_TRUE(has_note(cooked.notes, "too small for its own layers"));
+    EXPECT_LT(cooked.report.strain_p99, 0.1f);
+    EXPECT_TRUE(has_note(cooked.notes, "made anew"));
+    EXPECT_EQ(g.drawn.indices.size(), fine.triangles().size());
+    EXPECT_LT(g.vertex_count(), 2500u);
+    // It's drawn where it was modelled, seen from the cloth in its own lengths.
+    std::vector<Vec3> normals;
+    compute_normals(g.cut_shape, g.mesh.indices, normals);
+    const CarryingMesh carrying{g.mesh.indices, g.cut_shape, normals};
+    const std::vector<Vec3> modelled = fine.positions();
+    for (uint32_t i = 0; i < g.drawn_count(); ++i) {
+        const DrawnFrame frame(carrying, g.drawn.triangles[i], g.drawn.weights[i]);
+        const Vec3 at = frame.origin + frame.axes * g.drawn.offsets[i];
+        float least = INFINITY;
+        for (const Vec3& p : modelled) least = std::min(least, glm::length(p - at));
+        ASSERT_LT(least, 1e-4f) << i;
+        ASSERT_LT(glm::length(g.drawn.offsets[i]), 0.03f) << i;
+    }
+    const Garment read = parse_garment(bytes_of_text(write_garment(g)), fabrics);
+    EXPECT_EQ(read.drawn.indices, g.drawn.indices);
+    EXPECT_EQ(read.drawn_count(), g.drawn.vertex_count());
+    CookRequest request = request_of(write("fine.obj", obj_of(fine)));
+    request.remake = Remake::never;
+    EXPECT_TRUE(has_note(cook_file(*model, fabrics, request, *jobs).front().notes, "too small for its own layers"));
     TubeMesh coarse;
     coarse.columns = 12, coarse.rows = 5;
     EXPECT_TRUE(has_note(cook("coarse.obj", obj_of(coarse)).notes, "fold coarsely"));
@@ -206,7 +229,9 @@ TEST_F(MeshGarment, CountsInTheUnitThatIsSaid) {
 
 Surface surface_of(const Model& model, float unit_m = 1.0f) {
     const Pieces pieces = make_pieces(make_soup(model, unit_m));
-    return make_surface(pieces, pieces.list.front(), 0.03f);
+    Surface surface = make_surface(pieces, pieces.list.front(), 0.03f);
+    surface.notes.insert(surface.notes.end(), pieces.notes.begin(), pieces.notes.end());
+    return surface;
 }
 Surface surface_of(const std::string& obj, float unit_m = 1.0f) {
     return surface_of(read_obj(obj, Beside()), unit_m);
@@ -263,22 +288,42 @@ TEST(ObjFile, NamesTheLineOfWhatCannotBeRead) {
     EXPECT_EQ(model.faces[0].number, 6u);
 }
 
-TEST(MeshSurface, KnowsTheUnitThatWouldFit) {
+TEST_F(MeshGarment, FindsTheUnitAndWhichWayIsUp) {
+    const std::vector<float> metres = side_lengths(TubeMesh().positions(), TubeMesh().triangles());
+    for (const auto& [unit, name] : {std::pair(100.0f, "centimetres"), std::pair(1000.0f, "millimetres"),
+                                     std::pair(10.0f, "decimetres"), std::pair(1.0f / 0.0254f, "inches"),
+                                     std::pair(1.0f / 0.3048f, "feet")}) {
+        TubeMesh tube;
+        tube.unit = unit;
+        const CookedGarment cooked = cook(std::string(name) + ".obj", obj_of(tube));
+        EXPECT_TRUE(has_note(cooked.notes, name)) << name;
+        const std::vector<float> own = side_lengths(cooked.garment.cut_shape, cooked.garment.mesh.indices);
+        EXPECT_NEAR(own.back(), metres.back(), 1e-4f) << name;
+    }
     TubeMesh tube;
-    tube.unit = 100.0f;
-    expect_refused(obj_of(tube), {"centimetres", "--unit cm"});
-    tube.unit = 1000.0f;
-    expect_refused(obj_of(tube), {"millimetres", "--unit mm"});
-    tube.unit = 1.0f;
-    expect_refused(obj_of(tube), {"look like metres", "--unit m;"}, 0.01f);
-    tube.unit = 1e6f;
-    expect_refused(obj_of(tube), {"neither"});
-    tube.unit = 1.0f;
     std::vector<Vec3> lying = tube.positions();
-    for (Vec3& p : lying) p = {p.x, -p.z, p.y};
-    expect_refused(obj_vertices(lying, tube.uvs()) + obj_faces(tube.squares(), 4), {"Z up"});
-    for (Vec3& p : lying) p = {p.x + 5.0f, p.z, -p.y};
-    expect_refused(obj_vertices(lying, tube.uvs()) + obj_faces(tube.squares(), 4), {"around a body"});
+    for (Vec3& p : lying) p = Vec3(p.x, -p.z, p.y) + Vec3(5.0f, -3.0f, 0.0f);
+    const CookedGarment turned =
+        cook("lying.obj", obj_vertices(lying, tube.uvs()) + obj_faces(tube.squares(), 4));
+    EXPECT_TRUE(has_note(turned.notes, "Z up"));
+    EXPECT_EQ(turned.report.hangs_on, HangsOn::waist);
+    EXPECT_EQ(turned.report.skin_crossings, 0u);
+
+    const auto refused = [&](float unit_m, float scale, std::initializer_list<const char*> words) {
+        CookRequest request = request_of(write("tube.obj", obj_of(tube)));
+        request.unit_m = unit_m, request.scale = scale;
+        try {
+            cook_file(*model, fabrics, request, *jobs);
+            ADD_FAILURE() << "accepted: " << *words.begin();
+        } catch (const Error& error) {
+            for (const char* word : words)
+                EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+    };
+    refused(0.01f, 0.0f, {"m large", "metres (--unit m)"});
+    refused(1.0f, 0.2f, {"goes round nothing"});
+    tube.unit = 1e6f;
+    refused(0.0f, 0.0f, {"size can't be told", "--scale"});
 }
 
 TEST(MeshSurface, RefusesWhatIsNoClothByName) {
@@ -308,8 +353,8 @@ TEST(MeshSurface, RefusesWhatIsNoClothByName) {
     coarse.columns = 6, coarse.rows = 2;
     expect_refused(obj_of(coarse), {"24 triangles", "coarse"});
     TubeMesh fine;
-    fine.columns = 400, fine.rows = 160;
-    expect_refused(obj_of(fine), {"vertices", "60000"});
+    fine.columns = 800, fine.rows = 320;
+    expect_refused(obj_of(fine), {"512000 triangles", "500000"});
     // A band with half a turn.
     std::string band;
     for (int i = 0; i < 40; ++i) {
@@ -337,11 +382,30 @@ std::string shell(float apart_m, size_t first, bool inward) {
     return obj_vertices(other.positions(), other.uvs()) + obj_faces(squares, 4);
 }
 
-TEST(MeshSurface, KnowsClothThatIsModelledWithThickness) {
+TEST_F(MeshGarment, ClothThatIsModelledWithThicknessIsDrawnSo) {
     const TubeMesh tube;
     const size_t n = tube.positions().size();
     const std::string two = obj_of(tube) + shell(-0.004f, n, true);
-    expect_refused(two, {"thickness", "two shells", "4 mm", "outer shell"});
+    const auto refused = [&](const std::string& obj, std::initializer_list<const char*> words) {
+        CookRequest request = request_of(write("thick.obj", obj));
+        request.remake = Remake::never;
+        try {
+            cook_file(*model, fabrics, request, *jobs);
+            ADD_FAILURE() << "accepted: " << *words.begin();
+        } catch (const Error& error) {
+            for (const char* word : words)
+                EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+    };
+    const auto drawn = [&](const std::string& obj, size_t triangles) {
+        const CookedGarment cooked = cook("thick.obj", obj);
+        EXPECT_TRUE(has_note(cooked.notes, "made anew"));
+        EXPECT_EQ(cooked.report.crossings(), 0u);
+        EXPECT_EQ(cooked.openings_m.size(), 2u);
+        EXPECT_EQ(cooked.garment.drawn.indices.size(), 3 * triangles);
+    };
+    refused(two, {"thickness", "two shells", "4 mm", "outer shell"});
+    drawn(two, 2 * tube.triangles().size() / 3);
     // Joined around both rims: closed.
     std::string rims;
     const int c = tube.columns, last = tube.rows * (c + 1);
@@ -350,13 +414,16 @@ TEST(MeshSurface, KnowsClothThatIsModelledWithThickness) {
         rims += vfit::text("f ", last + i + 2, " ", last + i + 1, " ", int(n) + last + i + 1, " ",
                            int(n) + last + i + 2, "\n");
     }
-    expect_refused(two + rims, {"thickness", "mm apart", "outer shell"});
+    drawn(two + rims, 2 * tube.triangles().size() / 3 + size_t(4 * c));
     // A sack, closed all around.
     std::string lids = "v 0 1.05 0\nv 0 0.6 0\n";
     for (int i = 0; i < c; ++i)
         lids += vfit::text("f ", i + 1, " ", i + 2, " ", n + 1, "\nf ", last + i + 2, " ", last + i + 1, " ",
                            n + 2, "\n");
     expect_refused(obj_of(tube) + lids, {"no opening", "closed all around"});
+    const CookedGarment opened = cook("sack.obj", obj_of(tube) + lids);
+    EXPECT_TRUE(has_note(opened.notes, "2 ends that were closed by cloth were cut open"));
+    EXPECT_EQ(opened.openings_m.size(), 2u);
     // And one with a hole that is too small for a head.
     std::vector<uint32_t> squares = tube.squares();
     squares.resize(squares.size() - 4);
@@ -364,7 +431,7 @@ TEST(MeshSurface, KnowsClothThatIsModelledWithThickness) {
                    {"no opening for a body", "cm around"});
 }
 
-TEST(MeshSurface, MendsWhatCanBe) {
+TEST_F(MeshGarment, MendsWhatCanBe) {
     const TubeMesh tube;
     const std::string vertices = obj_vertices(tube.positions(), tube.uvs());
     // Every fifth square the wrong way round, one twice, a button, a hole of the size of a buttonhole, and a
@@ -381,7 +448,11 @@ TEST(MeshSurface, MendsWhatCanBe) {
     EXPECT_EQ(surface.indices.size(), tube.triangles().size());
     EXPECT_TRUE(has_note(surface.notes, "turned the other way round"));
     EXPECT_TRUE(has_note(surface.notes, "2 triangles are left out that are there twice"));
-    EXPECT_TRUE(has_note(surface.notes, "1 pieces (1 triangles of material \"buttons\") are left out"));
+    const CookedGarment with_button = cook("mended.obj", text);
+    EXPECT_EQ(with_button.garment.vertex_count(), 36u * 21);
+    EXPECT_EQ(with_button.garment.drawn.indices.size(), tube.triangles().size() + 3);  // the button too
+    ASSERT_EQ(with_button.garment.parts.size(), 2u);
+    EXPECT_EQ(with_button.garment.parts[0].material, "buttons");
     EXPECT_TRUE(has_note(surface.notes, "1 faces are left out whose corners lie at one place or two"));
     std::set<std::pair<uint32_t, uint32_t>> sides;
     for (size_t i = 0; i < surface.indices.size(); ++i)
@@ -405,16 +476,45 @@ TEST(MeshSurface, MendsWhatCanBe) {
     EXPECT_EQ(mended.positions.size(), 90u * 91 + 1);
 }
 
-TEST(MeshSurface, PiecesThatAreNotJoinedAreNamed) {
+TEST_F(MeshGarment, PiecesThatAreNotJoinedBecomeOneOrAreNamed) {
     TubeMesh top, bottom;
     top.bottom_m = 0.8f;
     top.flare = bottom.flare = 0.0f;
     bottom.top_m = 0.798f;
     std::vector<uint32_t> below = bottom.squares();
     for (uint32_t& v : below) v += uint32_t(top.positions().size());
-    expect_refused(
-        obj_of(top) + obj_vertices(bottom.positions(), bottom.uvs()) + "usemtl hem\n" + obj_faces(below, 4),
-        {"in pieces", "\"hem\"", "2 mm away"});
+    CookRequest request = request_of(write("two.obj", obj_of(top) + obj_vertices(bottom.positions(), bottom.uvs()) +
+                                                          "usemtl hem\n" + obj_faces(below, 4)));
+    const std::vector<CookedGarment> joined = cook_file(*model, fabrics, request, *jobs);
+    ASSERT_EQ(joined.size(), 1u);
+    EXPECT_EQ(joined[0].openings_m.size(), 2u);
+    request.remake = Remake::never;
+    try {
+        cook_file(*model, fabrics, request, *jobs);
+        ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+        for (const char* word : {"in pieces", "\"hem\"", "2 mm away"})
+            EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(MeshGarment, ASuitBecomesLayers) {
+    // A skirt, and a wider and shorter one over it.
+    TubeMesh inner, outer;
+    outer.radius_m += 0.03f, outer.bottom_m = 0.75f;
+    std::vector<uint32_t> over = outer.squares();
+    for (uint32_t& v : over) v += uint32_t(inner.positions().size());
+    const std::string obj = obj_of(outer);
+    const std::vector<CookedGarment> suit = cook_file(
+        *model, fabrics,
+        request_of(write("suit.obj", obj_of(inner) + obj_vertices(outer.positions(), outer.uvs()) + obj_faces(over, 4))),
+        *jobs);
+    ASSERT_EQ(suit.size(), 2u);
+    EXPECT_EQ(suit[0].of_set, "skirt");
+    EXPECT_EQ(suit[1].of_set, "skirt2");
+    EXPECT_EQ(suit[0].garment.name, "suit_skirt");
+    EXPECT_LT(suit[0].openings_m[1], suit[1].openings_m[1]);  // the innermost first
+    for (const CookedGarment& one : suit) EXPECT_EQ(one.report.crossings(), 0u);
 }
 
 TEST(MeshSurface, CutsPolygonsThatAreNotConvex) {
@@ -533,8 +633,7 @@ TEST(GltfGarment, IsRefusedWithTheReason) {
     refused([](auto& j) { j["accessors"][2]["count"] = 100; }, "whole triangles");
     refused([](auto& j) { j["nodes"][0]["mesh"] = 3; }, "mesh that is not there");
     refused([](auto& j) { j["nodes"][0]["skin"] = 3; }, "skin that is not there");
-    refused([](auto& j) { j["nodes"][0]["scale"] = {100, 100, 100}; }, "glTF counts in metres");
-    refused([](auto& j) { j["nodes"][0]["scale"] = {0, 0, 0}; }, "0 m large");
+    refused([](auto& j) { j["nodes"][0]["scale"] = {0, 0, 0}; }, "no triangle with an area");
     refused([](auto& j) { j["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 7}}; },
             "texture that is not there");
     refused([](auto& j) { j["asset"]["version"] = "1.0"; }, "version", VFIT_ERROR_UNSUPPORTED);
