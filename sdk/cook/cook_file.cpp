@@ -31,12 +31,6 @@ std::string name_of(const std::string& path) {
     return name;
 }
 
-uint32_t crossings_of(const std::vector<CookedGarment>& garments) {
-    uint32_t sum = 0;
-    for (const CookedGarment& cooked : garments) sum += cooked.report.crossings();
-    return sum;
-}
-
 /// A file does not tell whom its garment was made for: on the woman, and where that fails, or it crosses her or
 /// itself, on the man too; the better of both.
 std::vector<CookedGarment> better_of_both(

@@ -106,52 +106,36 @@ public:
           soup_(make_soup(model, plausible_unit(model, options.alignment.unit_m,
                                                 options.alignment.unit_told))) {}
 
-    std::vector<CookedGarment> run() {
-        std::exception_ptr fault;
-        bool is_surface = false;
-        if (options_.remake != Remake::always) {
-            try {
-                pieces_ = make_pieces(soup_);
-                is_surface = true;
-                bring_to_body_open([&](const Soup& soup) { return make_pieces(soup); });
-                return cook_pieces(options_.remake == Remake::never);
-            } catch (const Error&) {
-                if (options_.remake == Remake::never) throw;
-                fault = std::current_exception();
-            }
-        }
-        try {
-            make_anew();
-            return cook_pieces(true);
-        } catch (const Error&) {
-            // What is wrong with a surface is its author's to know; else it is what was found of the new one.
-            if (is_surface && !is_aligned_) std::rethrow_exception(fault);
-            throw;
-        }
+    /// anew: what is simulated is a surface of its own, and what was modelled is drawn. opened: ends that are
+    /// closed by cloth are cut open. as_they_are: however small triangles are.
+    std::vector<CookedGarment> run(bool anew, bool opened, bool as_they_are) {
+        anew_ = anew;
+        if (anew)
+            bring_to_body(opened, [&](const Soup& soup) {
+                // Of what is as large as a tent, for now, coarser ones.
+                constexpr float kMostArea_m2 = 6.0f;
+                float area_m2 = 0.0f;
+                for (const ModelTriangle& t : soup.triangles) area_m2 += area_of(soup.places, t);
+                envelope_ = envelope_of(soup, kSide_m * std::max(1.0f, std::sqrt(area_m2 / kMostArea_m2)));
+                return make_pieces(soup_of_joined(envelope_, soup.unit_m));
+            });
+        else
+            bring_to_body(opened, [&](const Soup& soup) { return make_pieces(soup); });
+        return cook_pieces(anew || as_they_are);
     }
+    /// It has come so far that what is wrong with it is told of the garment, and not of its triangles.
+    bool is_surface() const { return !pieces_.list.empty(); }
 
 private:
     static constexpr float kSide_m = 0.02f;
 
-    /// What is simulated is a surface of its own; what was modelled is drawn.
-    void make_anew() {
-        anew_ = true;
-        bring_to_body_open([&](const Soup& soup) {
-            // Of what is as large as a tent, for now, coarser ones.
-            constexpr float kMostArea_m2 = 6.0f;
-            float area_m2 = 0.0f;
-            for (const ModelTriangle& t : soup.triangles) area_m2 += area_of(soup.places, t);
-            envelope_ = envelope_of(soup, kSide_m * std::max(1.0f, std::sqrt(area_m2 / kMostArea_m2)));
-            return make_pieces(soup_of_joined(envelope_, soup.unit_m));
-        });
-    }
-
     /// With all ends open that may be closed by cloth; then without what was in the way alone, and in the size
     /// that was found.
-    void bring_to_body_open(const std::function<Pieces(const Soup&)>& pieces_of) {
-        const std::vector<std::vector<uint32_t>> caps = find_caps(soup_);
+    void bring_to_body(bool opened, const std::function<Pieces(const Soup&)>& pieces_of) {
+        std::vector<std::vector<uint32_t>> caps;
+        if (opened && (caps = find_caps(soup_)).empty()) fail(VFIT_ERROR_DATA, "no end is closed by cloth");
         pieces_ = pieces_of(without(soup_, caps));
-        const float scale = bring_to_body(false);
+        const float scale = align_pieces(false);
         const SkeletonProbe probe(body_);
         const std::vector<uint32_t> all = soup_.indices();
         std::vector<std::vector<uint32_t>> in_the_way;
@@ -169,21 +153,19 @@ private:
         } else {
             soup_ = without(soup_, in_the_way);
             pieces_ = pieces_of(soup_);
-            bring_to_body(true);
+            align_pieces(true);
         }
         if (!in_the_way.empty())
             notes_.push_back(text(in_the_way.size(), " ends that were closed by cloth were cut open"));
     }
 
     /// Places all in metres as the body has them, but for being moved. Returns by how much they were scaled.
-    float bring_to_body(bool size_known) {
+    float align_pieces(bool size_known) {
         AlignmentOptions how = options_.alignment;
         if (options_.cook.kind_told) how.kind = options_.cook.kind;
         how.thickness_m = options_.cook.drape.thickness_m;
         how.size_known = size_known;
-        is_aligned_ = false;
         alignment_ = align(pieces_, body_, how);
-        is_aligned_ = true;
         notes_.insert(notes_.end(), alignment_.notes.begin(), alignment_.notes.end());
         const float scale = alignment_.scale;
         for (std::vector<Vec3>* places : {&pieces_.places, &soup_.places})
@@ -483,7 +465,7 @@ private:
     const CookBody body_;
     Soup soup_;
     Model envelope_;
-    bool anew_ = false, has_trims_ = false, is_aligned_ = false;
+    bool anew_ = false, has_trims_ = false;
     Pieces pieces_;
     Alignment alignment_;
     std::vector<std::string> notes_;
@@ -493,7 +475,30 @@ private:
 
 std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& model,
                                       const FabricLibrary& fabrics, const ModelOptions& options, Jobs& jobs) {
-    return ModelCook(body_model, model, fabrics, options, jobs).run();
+    // As it was modelled, or with its ends opened, or made anew: the first that is worn without a crossing, else
+    // the one with the fewest.
+    std::vector<CookedGarment> best;
+    std::exception_ptr fault;
+    bool is_told_of_surface = true;
+    const auto try_out = [&](bool anew, bool opened) {
+        if (!best.empty() && crossings_of(best) == 0) return;
+        ModelCook cook(body_model, model, fabrics, options, jobs);
+        try {
+            std::vector<CookedGarment> cooked = cook.run(anew, opened, options.remake == Remake::never);
+            if (best.empty() || crossings_of(cooked) < crossings_of(best)) best = std::move(cooked);
+        } catch (const Error&) {
+            // What is wrong with the garment is told before what is wrong with its triangles.
+            if (fault && !(is_told_of_surface && cook.is_surface())) return;
+            fault = std::current_exception();
+            is_told_of_surface = !cook.is_surface();
+        }
+    };
+    if (options.remake != Remake::always)
+        for (const bool opened : {false, true}) try_out(false, opened);
+    if (options.remake != Remake::never)
+        for (const bool opened : {false, true}) try_out(true, opened);
+    if (best.empty()) std::rethrow_exception(fault);
+    return best;
 }
 
 }  // namespace vfit

@@ -91,6 +91,12 @@ std::vector<Vec2> uvs_of(std::vector<Vec2> flat) {
 
 }  // namespace
 
+uint32_t crossings_of(const std::vector<CookedGarment>& garments) {
+    uint32_t sum = 0;
+    for (const CookedGarment& cooked : garments) sum += cooked.report.crossings();
+    return sum;
+}
+
 void turn_outside_out(Garment& g, const MeshQuery& skin) {
     double outwards = 0.0;
     compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);

@@ -41,6 +41,8 @@ struct CookedGarment {
     std::vector<float> openings_m;   // of a modelled garment: around each
 };
 
+uint32_t crossings_of(const std::vector<CookedGarment>& garments);
+
 /// Triangles and seams agree on which side of the cloth is out, not on which of the two it is: that which
 /// looks away from the body.
 void turn_outside_out(Garment& garment, const MeshQuery& skin);

@@ -62,6 +62,8 @@ private:
 
     bool is_cap(uint32_t of, const std::vector<uint32_t>& patch) {
         constexpr float kLeastRing_m = 0.12f, kMostRing_m = 2.5f, kFlat = 1.8f;
+        // Collars and cuffs have ragged edges; what is as large as a waist has not, or is a panel.
+        constexpr float kRound = 0.35f, kWaist_m2 = 0.03f, kRoundWaist = 0.7f;
         std::set<uint32_t> vertices;
         std::set<Side> all, ring;
         std::map<uint32_t, int> on_ring;
@@ -86,10 +88,11 @@ private:
             around += glm::length(soup_.places[side.second] - soup_.places[side.first]);
             middle += (soup_.places[side.first] + soup_.places[side.second]) / (2.0f * float(ring.size()));
         }
-        // A disc, about flat.
+        // A disc, about round and flat.
         if (int(vertices.size()) - int(all.size()) + int(patch.size()) != 1) return false;
         if (around < kLeastRing_m || around > kMostRing_m) return false;
-        if (area > kFlat * around * around / (4.0f * kPi)) return false;
+        const float of_circle = area * 4.0f * kPi / (around * around);
+        if (of_circle < (area > kWaist_m2 ? kRoundWaist : kRound) || of_circle > kFlat) return false;
         if (!std::all_of(on_ring.begin(), on_ring.end(), [](const auto& v) { return v.second == 2; }))
             return false;
         return lies_across(of, patch, on_ring);
