@@ -3,7 +3,7 @@
 """Draws sewing patterns with GarmentCode's own generator, each for a body of its own measures: a judging set
 that vfit has not made. Needs a checkout of GarmentCode (MIT) and its Python packages (numpy below 2, scipy,
 svgwrite, svgpathtools, pyyaml, matplotlib, CairoSVG). A seed gives the same designs, but the generator writes
-their edges in another order each time. Then: python3 tools/judge_patterns OUT.
+their edges in another order each time. Then: python3 tools/judge_garments OUT.
 """
 
 import argparse

@@ -526,7 +526,8 @@ private:
         if (is_of_other_size && way.parted.count() < kLimbs) sum += kNotItsKind;
         if (way.turn > 0) sum += kOtherTurn;
         const float ratio = way.found.girth_ratio;
-        if (ratio <= 0.0f) return sum + kOffSize;
+        // An open jacket goes round nothing, but its sleeves tell how large it is.
+        if (ratio <= 0.0f) return way.parted.count() > kLimbs - 1 ? sum : sum + kOffSize;
         if (ratio < kTight) sum += kOffSize * std::log(kTight / ratio) + 1.0f;
         if (ratio > kLoose) sum += kOffSize * std::log(ratio / kLoose) + 1.0f;
         return sum + 0.2f * std::abs(std::log(ratio / kUsual));
