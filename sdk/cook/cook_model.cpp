@@ -121,10 +121,11 @@ public:
             });
         else
             bring_to_body(opened, [&](const Soup& soup) { return make_pieces(soup); });
+        stage_ = 2;
         return cook_pieces(anew || as_they_are);
     }
-    /// It has come so far that what is wrong with it is told of the garment, and not of its triangles.
-    bool is_surface() const { return !pieces_.list.empty(); }
+    /// How far it came: to a surface (1), to the body (2).
+    int stage() const { return stage_; }
 
 private:
     static constexpr float kSide_m = 0.02f;
@@ -135,6 +136,7 @@ private:
         std::vector<std::vector<uint32_t>> caps;
         if (opened && (caps = find_caps(soup_)).empty()) fail(VFIT_ERROR_DATA, "no end is closed by cloth");
         pieces_ = pieces_of(without(soup_, caps));
+        stage_ = 1;
         const float scale = align_pieces(false);
         const SkeletonProbe probe(body_);
         const std::vector<uint32_t> all = soup_.indices();
@@ -148,12 +150,21 @@ private:
         // Triangles made anew are as large as they should be in the unit that was taken at first.
         constexpr float kSame = 1.2f;
         const bool is_same = scale < kSame && scale > 1.0f / kSame;
-        if (in_the_way.size() == caps.size() && (is_same || !anew_)) {
-            soup_ = without(soup_, in_the_way);
-        } else {
-            soup_ = without(soup_, in_the_way);
-            pieces_ = pieces_of(soup_);
-            align_pieces(true);
+        const Soup open = without(soup_, caps);
+        soup_ = without(soup_, in_the_way);
+        if (in_the_way.size() < caps.size() || (anew_ && !is_same)) {
+            const size_t noted = notes_.size();
+            try {
+                pieces_ = pieces_of(soup_);
+                align_pieces(true);
+            } catch (const Error&) {
+                if (caps.empty()) throw;
+                // What looks like an end closes it all the same; it is drawn.
+                notes_.resize(noted);
+                pieces_ = pieces_of(open);
+                align_pieces(true);
+                has_trims_ = true;
+            }
         }
         if (!in_the_way.empty())
             notes_.push_back(text(in_the_way.size(), " ends that were closed by cloth were cut open"));
@@ -363,6 +374,7 @@ private:
         out.round = goes_round(g.mesh.positions, g.mesh.indices, body_);
         if (worn.parted.over_shoulder()) out.round.push_back("shoulders");
         check_still_on(worn, g, surface);
+        check_shape(out.report, g.mesh.positions);
         check_free(out.report, surface.indices.size() / 3);
         check_worn(out.round, options_.cook.kind_told ? options_.cook.kind : "");
         out.notes = surface.notes;
@@ -378,14 +390,30 @@ private:
 
     /// Each limb leaves it by the openings by which it did when it was put on.
     void check_still_on(const WornPiece& worn, const Garment& g, const Surface& surface) const {
-        const Parted now =
-            SkeletonProbe(body_).parted(g.mesh.positions, surface.openings, Vec3(0.0f), Stance());
+        const SkeletonProbe probe(body_);
+        const MeshQuery cloth(g.mesh.positions, g.mesh.indices);
+        const Parted now = probe.parted(g.mesh.positions, surface.openings, Vec3(0.0f), Stance());
         constexpr std::array<const char*, 5> kEnds = {"head", "left arm", "right arm", "left leg", "right leg"};
         for (size_t a = 0; a < kEnds.size(); ++a)
-            for (size_t b = 0; b < a; ++b)
-                if ((now.group[a] == now.group[b]) != (worn.parted.group[a] == worn.parted.group[b]))
-                    fail(VFIT_ERROR_DATA, "the garment comes off: when it had fallen, the ", kEnds[a],
-                         " was no longer in it as when it was put on");
+            for (size_t b = 0; b < a; ++b) {
+                if ((now.group[a] == now.group[b]) == (worn.parted.group[a] == worn.parted.group[b])) continue;
+                // The end of a sleeve may hang before a hand.
+                if (probe.is_beyond(Parted::End(a), cloth) || probe.is_beyond(Parted::End(b), cloth)) continue;
+                fail(VFIT_ERROR_DATA, "the garment comes off: when it had fallen, the ", kEnds[a],
+                     " was no longer in it as when it was put on");
+            }
+    }
+
+    /// What is stretched to rags, or lies about the feet, was not made for a body as it was put on.
+    static void check_shape(const DrapeReport& report, const std::vector<Vec3>& places) {
+        constexpr float kRags = 0.8f, kBelowSoles_m = -0.3f;
+        if (report.strain_p99 > kRags)
+            fail(VFIT_ERROR_DATA, "the garment is not worn: a hundredth of its sides are stretched by ",
+                 std::lround(100.0f * report.strain_p99), " % or more");
+        for (const Vec3& p : places)
+            if (p.y < kBelowSoles_m)
+                fail(VFIT_ERROR_DATA, "the garment is not worn: it reaches ", std::lround(-100.0f * p.y),
+                     " cm below the soles: is it larger than its body (--unit, --scale)?");
     }
 
     /// A few places at an armpit or a collar are told; more is a garment that is not on.
@@ -466,6 +494,7 @@ private:
     Soup soup_;
     Model envelope_;
     bool anew_ = false, has_trims_ = false;
+    int stage_ = 0;
     Pieces pieces_;
     Alignment alignment_;
     std::vector<std::string> notes_;
@@ -479,7 +508,7 @@ std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& 
     // the one with the fewest.
     std::vector<CookedGarment> best;
     std::exception_ptr fault;
-    bool is_told_of_surface = true;
+    int stage = -1;  // of the fault: what is told is of the way that came furthest
     const auto try_out = [&](bool anew, bool opened) {
         if (!best.empty() && crossings_of(best) == 0) return;
         ModelCook cook(body_model, model, fabrics, options, jobs);
@@ -487,10 +516,9 @@ std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& 
             std::vector<CookedGarment> cooked = cook.run(anew, opened, options.remake == Remake::never);
             if (best.empty() || crossings_of(cooked) < crossings_of(best)) best = std::move(cooked);
         } catch (const Error&) {
-            // What is wrong with the garment is told before what is wrong with its triangles.
-            if (fault && !(is_told_of_surface && cook.is_surface())) return;
+            if (cook.stage() <= stage) return;
             fault = std::current_exception();
-            is_told_of_surface = !cook.is_surface();
+            stage = cook.stage();
         }
     };
     if (options.remake != Remake::always)

@@ -149,6 +149,10 @@ bool SkeletonProbe::is_in_the_way(const MeshQuery& cloth, const Vec3& moved, con
     return false;
 }
 
+bool SkeletonProbe::is_beyond(Parted::End end, const MeshQuery& cloth) const {
+    return crossing(ways_[end].back(), cloth, Vec3(0.0f), Stance()).has_value();
+}
+
 Parted SkeletonProbe::parted(std::span<const Vec3> places,
                              const std::vector<std::vector<uint32_t>>& openings, const Vec3& moved,
                              const Stance& stance) const {

@@ -45,6 +45,9 @@ public:
     /// Whether a way to an end of the body, or on from there, crosses it.
     bool is_in_the_way(const MeshQuery& cloth, const Vec3& moved, const Stance& stance) const;
 
+    /// Whether the way on from an end of the body crosses it, as out of a sleeve that is longer than the arm.
+    bool is_beyond(Parted::End end, const MeshQuery& cloth) const;
+
     /// By which of the openings each end of the body leaves the cloth.
     Parted parted(std::span<const Vec3> places, const std::vector<std::vector<uint32_t>>& openings,
                   const Vec3& moved, const Stance& stance) const;
