@@ -215,7 +215,9 @@ private:
         std::vector<MeshQuery> cloths;
         for (const CookedGarment& cooked : garments)
             cloths.emplace_back(cooked.garment.cut_shape, cooked.garment.mesh.indices);
+        constexpr float kBeside_m = 0.08f, kMostBeside = 0.05f;
         std::vector<std::vector<uint32_t>> triangles(garments.size());
+        float beside_m2 = 0.0f, all_m2 = 0.0f;
         for (uint32_t t = 0; t < soup_.triangles.size(); ++t) {
             const auto& v = soup_.triangles[t].vertex;
             const Vec3 middle = (soup_.places[v[0]] + soup_.places[v[1]] + soup_.places[v[2]]) / 3.0f;
@@ -224,7 +226,12 @@ private:
             for (size_t g = 0; g < garments.size(); ++g)
                 if (const float off = cloths[g].closest(middle).distance; off < least) least = off, best = g;
             triangles[best].push_back(t);
+            all_m2 += area_of(soup_.places, soup_.triangles[t]);
+            if (least > kBeside_m) beside_m2 += area_of(soup_.places, soup_.triangles[t]);
         }
+        if (beside_m2 > kMostBeside * all_m2)
+            fail(VFIT_ERROR_DATA, "the garment is in pieces: ", std::lround(100.0f * beside_m2 / all_m2),
+                 " % of it are not joined to what goes round the body");
         for (size_t g = 0; g < garments.size(); ++g)
             if (!triangles[g].empty()) draw(soup_, triangles[g], cloths[g], garments[g].garment);
     }

@@ -188,6 +188,23 @@ public:
         return out;
     }
 
+    /// Whether sleeves or legs end far beyond hands and feet.
+    bool is_too_long(const Vec3& moved, bool has_sleeves) const {
+        constexpr float kMost = 1.4f;  // of the way to wrist and ankle
+        for (const auto& [limb, lower, is_arm] : {std::tuple(Limb::left_arm, Limb::left_forearm, true),
+                                                  std::tuple(Limb::right_arm, Limb::right_forearm, true),
+                                                  std::tuple(Limb::left_leg, Limb::left_shank, false),
+                                                  std::tuple(Limb::right_leg, Limb::right_shank, false)}) {
+            if (is_arm && !has_sleeves) continue;
+            const auto* opening = end_of(limb, moved);
+            if (!opening) continue;
+            const float whole = glm::length(body_.end(limb) - body_.root(limb)) +
+                                glm::length(body_.end(lower) - body_.root(lower));
+            if (glm::length(centre(*opening) + moved - body_.root(limb)) > kMost * whole) return true;
+        }
+        return false;
+    }
+
     /// Share of the cloth across which lies no body but other cloth, as in a sleeve without an arm.
     float empty_share(const Vec3& moved, const Stance& stance) const {
         constexpr size_t kSamples = 800;
@@ -478,6 +495,7 @@ private:
                 ++way.turn;
             }
             way.cost = cost(way, !is_first || (!unit && !options_.size_known)) + 0.1f * float(w);
+            if (candidate.is_too_long(way.alignment.moved, !by_waist)) way.cost += kNotItsKind;
             if (!options_.size_known && !is_stated(unit)) way.cost += kOtherScale;
             if (way.cost < kNotItsKind && (!best_ || way.cost < best_->cost)) {
                 constexpr float kEmpty = 0.2f;

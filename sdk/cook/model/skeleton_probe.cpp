@@ -133,7 +133,7 @@ SkeletonProbe::Found SkeletonProbe::find(const MeshQuery& cloth, const Vec3& mov
             if (!hit) continue;
             cloth_m += hit->distance, skin_m += ring.skin_m[i], ++met;
         }
-        constexpr size_t kRound = kDirections * 5 / 8;
+        constexpr size_t kRound = kDirections * 3 / 4;
         if (met >= kRound) ratios.push_back(cloth_m / skin_m);
     }
     if (ratios.empty()) return out;
