@@ -31,8 +31,8 @@ std::string name_of(const std::string& path) {
     return name;
 }
 
-/// A file does not tell whom its garment was made for: on the woman, and where that fails, or it crosses her or
-/// itself, on the man too; the better of both.
+/// A file does not tell whom its garment was made for: on the woman, and where that fails, or it crosses her
+/// or itself, on the man too; the better of both.
 std::vector<CookedGarment> better_of_both(
     const std::function<std::vector<CookedGarment>(vfit_sex)>& cook_on) {
     std::vector<CookedGarment> on_woman, on_man;
@@ -50,7 +50,7 @@ std::vector<CookedGarment> better_of_both(
         return on_woman;
     }
     return !on_woman.empty() && crossings_of(on_woman) <= crossings_of(on_man) ? std::move(on_woman)
-                                                                              : std::move(on_man);
+                                                                               : std::move(on_man);
 }
 
 /// Where GarmentCode keeps the measures of the body that a pattern was drawn for; empty: there are none.
@@ -149,8 +149,8 @@ Model read_model(const std::string& path) {
     return read_obj({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, beside);
 }
 
-std::vector<CookedGarment> cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
-                        Jobs& jobs) {
+std::vector<CookedGarment> cook_mesh(const BodyModel& model, const FabricLibrary& fabrics,
+                                     const CookRequest& request, Jobs& jobs) {
     ModelOptions options;
     options.name = request.name.empty() ? name_of(request.path) : request.name;
     if (!request.kind.empty()) options.cook.kind = request.kind, options.cook.kind_told = true;
@@ -186,8 +186,8 @@ bool is_mesh_file(const std::string& path) {
     return ending == ".obj" || ending == ".gltf" || ending == ".glb";
 }
 
-std::vector<CookedGarment> cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
-                        Jobs& jobs) {
+std::vector<CookedGarment> cook_file(const BodyModel& model, const FabricLibrary& fabrics,
+                                     const CookRequest& request, Jobs& jobs) {
     if (is_mesh_file(request.path)) return cook_mesh(model, fabrics, request, jobs);
     const std::vector<std::byte> text = read_file(request.path);
     if (is_garmentcode(text)) return one(cook_specification(model, fabrics, request, text, jobs));
@@ -195,7 +195,8 @@ std::vector<CookedGarment> cook_file(const BodyModel& model, const FabricLibrary
     const std::string format = root.is_object() && root.contains("format") && root["format"].is_string()
                                    ? root["format"].get<std::string>()
                                    : "";
-    if (format == "vfit-sundress") return one({cook_sundress(model, parse_sundress(text)), {}, {}, {}, {}, {}});
+    if (format == "vfit-sundress")
+        return one({cook_sundress(model, parse_sundress(text)), {}, {}, {}, {}, {}});
     if (format == "vfit-design") return one(cook_design(model, fabrics, request, text, jobs));
     fail(VFIT_ERROR_UNSUPPORTED, request.path,
          " is no garment that can be cooked: neither a mesh (.obj, .gltf, .glb) nor a GarmentCode "

@@ -103,8 +103,8 @@ public:
           options_(options),
           jobs_(jobs),
           body_(body_model, options.cook.sex, options.cook.shape),
-          soup_(make_soup(model, plausible_unit(model, options.alignment.unit_m,
-                                                options.alignment.unit_told))) {}
+          soup_(make_soup(model,
+                          plausible_unit(model, options.alignment.unit_m, options.alignment.unit_told))) {}
 
     /// anew: what is simulated is a surface of its own, and what was modelled is drawn. opened: ends that are
     /// closed by cloth are cut open. as_they_are: however small triangles are.
@@ -130,8 +130,8 @@ public:
 private:
     static constexpr float kSide_m = 0.02f;
 
-    /// With all ends open that may be closed by cloth; then without what was in the way alone, and in the size
-    /// that was found.
+    /// With all ends open that may be closed by cloth; then without what was in the way alone, and in the
+    /// size that was found.
     void bring_to_body(bool opened, const std::function<Pieces(const Soup&)>& pieces_of) {
         std::vector<std::vector<uint32_t>> caps;
         if (opened && (caps = find_caps(soup_)).empty()) fail(VFIT_ERROR_DATA, "no end is closed by cloth");
@@ -257,9 +257,8 @@ private:
             if (parted.round_nothing() && !out.empty()) refuse_part(piece, *out.front().piece);
             out.push_back({&piece, parted, off_skin(piece)});
         }
-        std::stable_sort(out.begin(), out.end(), [](const WornPiece& a, const WornPiece& b) {
-            return a.off_skin_m < b.off_skin_m;
-        });
+        std::stable_sort(out.begin(), out.end(),
+                         [](const WornPiece& a, const WornPiece& b) { return a.off_skin_m < b.off_skin_m; });
         return out;
     }
 
@@ -306,7 +305,8 @@ private:
         double sum = 0.0;
         for (const uint32_t v : piece.indices) sum += double(cloth.closest(pieces_.places[v]).distance);
         fail(VFIT_ERROR_DATA, "the garment is modelled with thickness: there are two shells, ",
-             std::lround(1000.0 * sum / double(piece.indices.size())), " mm apart; give the outer shell alone");
+             std::lround(1000.0 * sum / double(piece.indices.size())),
+             " mm apart; give the outer shell alone");
     }
 
     [[noreturn]] void refuse_part(const Piece& piece, const Piece& other) const {
@@ -387,8 +387,9 @@ private:
         out.notes = surface.notes;
         if (anew_)
             out.notes.push_back(text("what is simulated was made anew along its outer side, with ",
-                                     g.mesh.indices.size() / 3, " triangles; what was modelled is drawn and "
-                                                                "goes with it"));
+                                     g.mesh.indices.size() / 3,
+                                     " triangles; what was modelled is drawn and "
+                                     "goes with it"));
         add_notes(cloth, thickness, inside, draped, out.notes);
         for (const auto& opening : surface.openings) out.openings_m.push_back(surface.length_of(opening));
         out.report.seconds = watch.ms() / 1000.0;
@@ -400,12 +401,15 @@ private:
         const SkeletonProbe probe(body_);
         const MeshQuery cloth(g.mesh.positions, g.mesh.indices);
         const Parted now = probe.parted(g.mesh.positions, surface.openings, Vec3(0.0f), Stance());
-        constexpr std::array<const char*, 5> kEnds = {"head", "left arm", "right arm", "left leg", "right leg"};
+        constexpr std::array<const char*, 5> kEnds = {"head", "left arm", "right arm", "left leg",
+                                                      "right leg"};
         for (size_t a = 0; a < kEnds.size(); ++a)
             for (size_t b = 0; b < a; ++b) {
-                if ((now.group[a] == now.group[b]) == (worn.parted.group[a] == worn.parted.group[b])) continue;
+                if ((now.group[a] == now.group[b]) == (worn.parted.group[a] == worn.parted.group[b]))
+                    continue;
                 // The end of a sleeve may hang before a hand.
-                if (probe.is_beyond(Parted::End(a), cloth) || probe.is_beyond(Parted::End(b), cloth)) continue;
+                if (probe.is_beyond(Parted::End(a), cloth) || probe.is_beyond(Parted::End(b), cloth))
+                    continue;
                 fail(VFIT_ERROR_DATA, "the garment comes off: when it had fallen, the ", kEnds[a],
                      " was no longer in it as when it was put on");
             }
@@ -440,7 +444,8 @@ private:
         hold.worn_by = false;
         hold.slack_m = 0.02f;
         for (const Vec3& p : places) {
-            const bool is_there = std::abs(p.x) > kNeck_m && std::abs(p.x) < joint.x && p.y > joint.y - kBelowJoint_m;
+            const bool is_there =
+                std::abs(p.x) > kNeck_m && std::abs(p.x) < joint.x && p.y > joint.y - kBelowJoint_m;
             const auto closest = body_.skin().closest(p);
             hold.of.push_back(is_there && closest.distance < kOver_m && closest.normal.y > kUpwards);
         }
@@ -490,8 +495,8 @@ private:
             notes.push_back("it is held nowhere: all of it is simulated, and may slide off");
     }
 
-    // Around: smaller ones are buttonholes, eyelets and slips of the modeller; of a surface that was made anew
-    // no sleeve is as narrow.
+    // Around: smaller ones are buttonholes, eyelets and slips of the modeller; of a surface that was made
+    // anew no sleeve is as narrow.
     static constexpr float kHole_m = 0.03f, kAnewHole_m = 0.12f;
     const Model& model_;
     const FabricLibrary& fabrics_;
@@ -511,8 +516,8 @@ private:
 
 std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& model,
                                       const FabricLibrary& fabrics, const ModelOptions& options, Jobs& jobs) {
-    // As it was modelled, or with its ends opened, or made anew: the first that is worn without a crossing, else
-    // the one with the fewest.
+    // As it was modelled, or with its ends opened, or made anew: the first that is worn without a crossing,
+    // else the one with the fewest.
     std::vector<CookedGarment> best;
     std::exception_ptr fault;
     int stage = -1;  // of the fault: what is told is of the way that came furthest

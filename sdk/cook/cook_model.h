@@ -10,7 +10,8 @@
 
 namespace vfit {
 
-/// Whether what is simulated is made anew along the garment's outer side, and what was modelled is drawn on it.
+/// Whether what is simulated is made anew along the garment's outer side, and what was modelled is drawn on
+/// it.
 enum class Remake { where_needed, never, always };
 
 struct ModelOptions {
@@ -23,7 +24,7 @@ struct ModelOptions {
 
 /// A file may hold several garments, as a suit does: the innermost first. VFIT_ERROR_DATA says what is no
 /// garment's mesh, and where.
-std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics,
-                         const ModelOptions& options, Jobs& jobs);
+std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& model,
+                                      const FabricLibrary& fabrics, const ModelOptions& options, Jobs& jobs);
 
 }  // namespace vfit

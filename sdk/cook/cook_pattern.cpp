@@ -115,8 +115,8 @@ void add_drape_notes(const DrapeReport& report, std::vector<std::string>& notes)
         notes.push_back(text("it is stretched on this body: a hundredth of its sides by ",
                              std::lround(100.0f * report.strain_p99), " % or more"));
     if (report.skin_crossings > 0)
-        notes.push_back(text("the skin stands out of it in ", report.skin_crossings, " places, most of them at the ",
-                             report.most_crossed));
+        notes.push_back(text("the skin stands out of it in ", report.skin_crossings,
+                             " places, most of them at the ", report.most_crossed));
     if (report.self_crossings > 0)
         notes.push_back(text("it crosses itself in ", report.self_crossings, " places"));
 }

@@ -48,8 +48,8 @@ std::string write_garment(const Garment& garment) {
     std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") +
                       (!garment.drawn.empty()        ? "4"
                        : !garment.body_shape.empty() ? "3"
-                       : garment.has_own_lengths() ? "2"
-                                                   : "1") +
+                       : garment.has_own_lengths()   ? "2"
+                                                     : "1") +
                       ",\n";
     out += " \"name\": " + quoted(garment.name) + ", \"kind\": " + quoted(garment.kind);
     if (!garment.size_chart.empty()) out += ", \"size_chart\": " + quoted(garment.size_chart);

@@ -20,7 +20,8 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit, size_label, measures, shape, stand, remake;
+    std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit, size_label, measures, shape,
+        stand, remake;
     float triangle_mm = 20.0f, scale = 0.0f;
     bool json = false;
 };

@@ -64,7 +64,9 @@ def main():
     parser.add_argument("--vfit", default="build/bin/vfit")
     parser.add_argument("--measures", help="of all patterns that have none beside them")
     parser.add_argument(
-        "--kinds", type=pathlib.Path, help="table with a path (its end counts) and a kind a line, tabs between"
+        "--kinds",
+        type=pathlib.Path,
+        help="table with a path (its end counts) and a kind a line, tabs between",
     )
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the garment files (default: not kept)")
     parser.add_argument("--limit", type=float, default=60.0, help="seconds a design (default 60)")
@@ -110,7 +112,12 @@ def main():
             seconds.append(sum(garment["seconds"] for garment in garments))
             lines = "\n    ".join(line_of(garment) for garment in garments)
             print(f"{label}: {what}\n    {lines}", flush=True)
-    for what in ("worn without a crossing", "worn with crossings", "worn otherwise than its kind is", "refused"):
+    for what in (
+        "worn without a crossing",
+        "worn with crossings",
+        "worn otherwise than its kind is",
+        "refused",
+    ):
         print(f"{what}: {counts[what]} of {len(designs)} ({100 * counts[what] / len(designs):.0f} %)")
     if counts["of them no garment for a body"]:
         print(f"  of them no garment for a body: {counts['of them no garment for a body']}")

@@ -1,5 +1,5 @@
-// A mesh that is drawn in place of the one that is simulated, and goes with it: as its author modelled it, with
-// thickness, buttons and details that no simulation needs.
+// A mesh that is drawn in place of the one that is simulated, and goes with it: as its author modelled it,
+// with thickness, buttons and details that no simulation needs.
 #pragma once
 
 #include <cstdint>

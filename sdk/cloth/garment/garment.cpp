@@ -244,17 +244,22 @@ void validate_drawn(const Garment& g) {
                  " of ", g.mesh.indices.size() / 3);
         const Vec2& w = d.weights[i];
         if (!(w.x >= 0.0f && w.y >= 0.0f && w.x + w.y <= 1.001f))
-            fail(VFIT_ERROR_DATA, "garment: the weights of vertex ", i, " of \"drawn\" are not in its triangle");
+            fail(VFIT_ERROR_DATA, "garment: the weights of vertex ", i,
+                 " of \"drawn\" are not in its triangle");
         if (!finite(d.offsets[i]) || glm::length(d.offsets[i]) > kFarthest_m || !finite(d.normals[i]) ||
             !finite(d.uvs[i].x) || !finite(d.uvs[i].y))
-            fail(VFIT_ERROR_DATA, "garment: vertex ", i, " of \"drawn\" has numbers that are not finite, or an "
-                                  "offset of more than ", kFarthest_m, " m");
+            fail(VFIT_ERROR_DATA, "garment: vertex ", i,
+                 " of \"drawn\" has numbers that are not finite, or an "
+                 "offset of more than ",
+                 kFarthest_m, " m");
     }
     if (d.indices.empty() || d.indices.size() % 3 != 0)
-        fail(VFIT_ERROR_DATA, "garment: ", d.indices.size(), " indices of \"drawn\" are no list of triangles");
+        fail(VFIT_ERROR_DATA, "garment: ", d.indices.size(),
+             " indices of \"drawn\" are no list of triangles");
     for (size_t i = 0; i < d.indices.size(); ++i)
         if (d.indices[i] >= n)
-            fail(VFIT_ERROR_DATA, "garment: index ", i, " of \"drawn\" names vertex ", d.indices[i], " of ", n);
+            fail(VFIT_ERROR_DATA, "garment: index ", i, " of \"drawn\" names vertex ", d.indices[i], " of ",
+                 n);
 }
 
 void validate_cut(const Garment& g) {

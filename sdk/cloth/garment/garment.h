@@ -50,7 +50,7 @@ struct Garment {
     std::vector<Vec3> cut_shape;  // empty, or one a vertex: a shape in space whose sides have the garment's
                                   // own lengths, of what was modelled and not cut; there is no flat then
     std::vector<uint8_t> on_arm;  // empty, or one a vertex: 1 carried by an arm
-    DrawnMesh drawn;                 // empty: what is simulated is drawn
+    DrawnMesh drawn;              // empty: what is simulated is drawn
     std::vector<GarmentPart> parts;  // of the triangles that are drawn; empty: one, without a name
     std::vector<uint8_t> simulated;  // one a vertex: 1 simulated, 0 skinned with the body
     std::vector<uint8_t> backstop;   // one a vertex: 1 kept out of the body below it

@@ -51,14 +51,15 @@ std::vector<float> shares(const BodyModel& model, const BodyTopology& topology, 
 
 const char* part_name(BodyPart part) {
     constexpr std::array<const char*, kBodyPartCount> kNames = {
-        "head",        "trunk",      "left upper arm", "left forearm", "left hand",
-        "right upper arm", "right forearm", "right hand", "left thigh",   "left shank",
-        "left foot",   "right thigh", "right shank",    "right foot"};
+        "head",          "trunk",      "left upper arm", "left forearm", "left hand", "right upper arm",
+        "right forearm", "right hand", "left thigh",     "left shank",   "left foot", "right thigh",
+        "right shank",   "right foot"};
     return kNames[size_t(part)];
 }
 
 bool Stance::is_rest() const {
-    return thickness == 1.0f && std::all_of(turned.begin(), turned.end(), [](const Quat& q) { return q == kAtRest; });
+    return thickness == 1.0f &&
+           std::all_of(turned.begin(), turned.end(), [](const Quat& q) { return q == kAtRest; });
 }
 
 CookBody::CookBody(const BodyModel& model, vfit_sex sex, std::vector<ShapeSetting> settings)

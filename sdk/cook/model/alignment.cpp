@@ -218,7 +218,8 @@ public:
             const Vec3 across = glm::cross(b - a, c - a);
             const float length = glm::length(across);
             if (!(length > 0.0f)) continue;
-            const Vec3 inwards = -outwards_ * across / length, from = (a + b + c) / 3.0f + inwards * kLining_m;
+            const Vec3 inwards = -outwards_ * across / length,
+                       from = (a + b + c) / 3.0f + inwards * kLining_m;
             all += double(length);
             const auto cloth = cloth_->cast(from, inwards, kTube_m);
             if (!cloth || glm::dot(cloth->normal, inwards) * outwards_ < 0.0f) continue;
@@ -301,10 +302,10 @@ private:
         constexpr float kLeast_m = 0.2f, kMiddle_m = 0.01f;
         const auto has = [&](float side) {
             return std::any_of(openings_.begin(), openings_.end(), [&](const auto& opening) {
-                return length_around(places_, opening) > kLeast_m &&
-                       centre(opening).y < box_.middle().y &&
-                       std::all_of(opening.begin(), opening.end(),
-                                   [&](uint32_t v) { return side * (places_[v].x - x_) > -kMiddle_m; });
+                return length_around(places_, opening) > kLeast_m && centre(opening).y < box_.middle().y &&
+                       std::all_of(
+                           opening.begin(), opening.end(),
+                           [&](uint32_t v) { return side * (places_[v].x - x_) > -kMiddle_m; });
             });
         };
         return has(-1.0f) && has(1.0f);
@@ -321,9 +322,8 @@ private:
         float furthest = -INFINITY;
         for (const auto& opening : openings_) {
             if (length_around(places_, opening) < kLeast_m) continue;
-            if (std::any_of(opening.begin(), opening.end(), [&](uint32_t v) {
-                    return side * (places_[v].x + moved.x) < kMiddle_m;
-                }))
+            if (std::any_of(opening.begin(), opening.end(),
+                            [&](uint32_t v) { return side * (places_[v].x + moved.x) < kMiddle_m; }))
                 continue;
             const Vec3 at = centre(opening) + moved;
             if (is_arm ? at.y < levels.hip - kHand_m : at.y > levels.hip) continue;
@@ -388,7 +388,7 @@ private:
     std::optional<MeshQuery> cloth_;
     Box box_;
     float outwards_ = 1.0f;  // its triangles' normals look out, or in (-1)
-    float x_ = 0.0f;  // its middle, where that is not the body's
+    float x_ = 0.0f;         // its middle, where that is not the body's
 };
 
 struct Turn {
@@ -518,8 +518,7 @@ private:
         if (way.found.pierced.empty() || way.found.pierced.size() > kFew) return;
         std::vector<Vec2> offsets;
         for (int y = -kSteps; y <= kSteps; ++y)
-            for (int z = -kSteps; z <= kSteps; ++z)
-                offsets.push_back(kStep_m * Vec2(float(y), float(z)));
+            for (int z = -kSteps; z <= kSteps; ++z) offsets.push_back(kStep_m * Vec2(float(y), float(z)));
         std::stable_sort(offsets.begin(), offsets.end(),
                          [](const Vec2& a, const Vec2& b) { return glm::dot(a, a) < glm::dot(b, b); });
         const Vec3 from = way.alignment.moved;
@@ -616,8 +615,8 @@ float plausible_unit(const Model& model, float stated_m, bool told) {
         if (is_garments(size * unit.metres))
             fitting += text(fitting.empty() ? "" : ", ", unit.name, " (--unit ", unit.option, ")");
     fail(VFIT_ERROR_DATA, "the mesh is ", size * stated_m, " m large, and garments are ", kSmallest_m, " to ",
-         kLargest_m, " m: ",
-         fitting.empty() ? std::string("the numbers fit no unit") : "the numbers may be " + fitting);
+         kLargest_m,
+         " m: ", fitting.empty() ? std::string("the numbers fit no unit") : "the numbers may be " + fitting);
 }
 
 Alignment align(const Pieces& pieces, const CookBody& body, const AlignmentOptions& options) {

@@ -14,12 +14,12 @@ namespace vfit {
 enum class StandsBy { any, as_modelled, shoulders, waist };
 
 struct AlignmentOptions {
-    float unit_m = 1.0f;     // in which the file's numbers should count
-    bool unit_told = false;  // else it may be another one
-    float scale = 0.0f;      // told by hand; 0: not
+    float unit_m = 1.0f;      // in which the file's numbers should count
+    bool unit_told = false;   // else it may be another one
+    float scale = 0.0f;       // told by hand; 0: not
     bool size_known = false;  // the pieces are as large as they will be
     StandsBy stands_by = StandsBy::any;
-    std::string kind;         // told by hand; may be empty
+    std::string kind;  // told by hand; may be empty
     float thickness_m = 0.004f;
 };
 

@@ -17,7 +17,8 @@ public:
     explicit CapFinder(const Soup& soup) : soup_(soup) {
         for (uint32_t t = 0; t < soup.triangles.size(); ++t) {
             const auto& v = soup.triangles[t].vertex;
-            const Vec3 across = glm::cross(soup.places[v[1]] - soup.places[v[0]], soup.places[v[2]] - soup.places[v[0]]);
+            const Vec3 across =
+                glm::cross(soup.places[v[1]] - soup.places[v[0]], soup.places[v[2]] - soup.places[v[0]]);
             const float length = glm::length(across);
             area_.push_back(0.5f * length);
             normal_.push_back(length > 0.0f ? across / length : Vec3(0.0f));

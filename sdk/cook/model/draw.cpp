@@ -10,7 +10,8 @@
 
 namespace vfit {
 
-void draw(const Soup& soup, const std::vector<uint32_t>& triangles, const MeshQuery& cloth, Garment& garment) {
+void draw(const Soup& soup, const std::vector<uint32_t>& triangles, const MeshQuery& cloth,
+          Garment& garment) {
     const Model& model = *soup.model;
     std::vector<ModelTriangle> drawn;
     for (const uint32_t t : triangles) drawn.push_back(soup.triangles[t]);
@@ -30,9 +31,9 @@ void draw(const Soup& soup, const std::vector<uint32_t>& triangles, const MeshQu
     for (const ModelTriangle& t : drawn)
         for (size_t k = 0; k < 3; ++k) {
             const Vec2 uv = t.uv[k] == kNoUv ? Vec2(0.0f) : model.uvs[t.uv[k]];
-            const auto [it, fresh] = known.try_emplace(
-                {t.vertex[k], std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y)},
-                uint32_t(positions.size()));
+            const auto [it, fresh] =
+                known.try_emplace({t.vertex[k], std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y)},
+                                  uint32_t(positions.size()));
             if (fresh) {
                 const Vec3& n = normals_of_places[t.vertex[k]];
                 const float length = glm::length(n);
@@ -44,7 +45,8 @@ void draw(const Soup& soup, const std::vector<uint32_t>& triangles, const MeshQu
         }
     std::vector<Vec3> carrying;
     compute_normals(garment.cut_shape, garment.mesh.indices, carrying);
-    garment.drawn = bind_drawn({garment.mesh.indices, garment.cut_shape, carrying}, cloth, positions, normals);
+    garment.drawn =
+        bind_drawn({garment.mesh.indices, garment.cut_shape, carrying}, cloth, positions, normals);
     garment.drawn.uvs = std::move(uvs);
     garment.drawn.indices = std::move(indices);
     garment.parts = parts_of(model, drawn);

@@ -9,8 +9,8 @@
 
 namespace vfit {
 
-/// These triangles of the soup become what is drawn of the garment, with their materials. `cloth`: its cut_shape,
-/// which stands where the soup does.
+/// These triangles of the soup become what is drawn of the garment, with their materials. `cloth`: its
+/// cut_shape, which stands where the soup does.
 void draw(const Soup& soup, const std::vector<uint32_t>& triangles, const MeshQuery& cloth, Garment& garment);
 
 }  // namespace vfit

@@ -133,7 +133,8 @@ private:
         return it->second;
     }
 
-    /// Surface nets (Gibson 1998): one vertex a cell that the surface crosses, in the middle of where it does.
+    /// Surface nets (Gibson 1998): one vertex a cell that the surface crosses, in the middle of where it
+    /// does.
     void add_vertex(const Cell& c) {
         std::array<float, 8> w;
         for (int i = 0; i < 8; ++i)
@@ -188,15 +189,16 @@ private:
 
     using Side = std::pair<uint32_t, uint32_t>;
     std::map<Side, std::vector<uint32_t>> triangles_at_sides() const {
-        std::map<Side, std::vector<uint32_t>> out;  // three times the triangle, and the corner where it begins
+        std::map<Side, std::vector<uint32_t>>
+            out;  // three times the triangle, and the corner where it begins
         for (uint32_t t = 0; t < triangles_.size(); ++t)
             for (uint32_t k = 0; k < 3; ++k)
                 out[std::minmax(triangles_[t][k], triangles_[t][(k + 1) % 3])].push_back(3 * t + k);
         return out;
     }
 
-    /// The winding number goes on across openings: away from the cloth, or across its end. What lies across it
-    /// but comes to no end is a fold.
+    /// The winding number goes on across openings: away from the cloth, or across its end. What lies across
+    /// it but comes to no end is a fold.
     void leave_out_what_is_no_cloth() {
         constexpr float kOff = 0.9f, kAlong = 0.4f;  // of the side; cosine
         std::vector<uint8_t> no_cloth(triangles_.size(), 0), ends(triangles_.size(), 0);

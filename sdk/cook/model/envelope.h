@@ -6,8 +6,8 @@
 
 namespace vfit {
 
-/// In the unit of the soup's model, with openings where the garment has them. side_m: of its triangles, about.
-/// Parts that are closer to each other than that become one. VFIT_ERROR_DATA where nothing is left.
+/// In the unit of the soup's model, with openings where the garment has them. side_m: of its triangles,
+/// about. Parts that are closer to each other than that become one. VFIT_ERROR_DATA where nothing is left.
 Model envelope_of(const Soup& soup, float side_m);
 
 }  // namespace vfit

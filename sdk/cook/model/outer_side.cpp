@@ -83,8 +83,7 @@ private:
             if (fresh) patches_.emplace_back();
             Patch& patch = patches_[it->second];
             patch.area += area_[t] * n;
-            if (area_[t] > patch.largest)
-                patch.largest = area_[t], patch.at = middle(t), patch.normal = n;
+            if (area_[t] > patch.largest) patch.largest = area_[t], patch.at = middle(t), patch.normal = n;
             patch_of_.push_back(it->second);
         }
     }

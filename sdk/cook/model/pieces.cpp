@@ -102,7 +102,8 @@ private:
     Triangles cut_up(const std::vector<ModelCorner>& corners, uint32_t face) const {
         if (corners.size() == 3) return {{0, 1, 2}};
         if (corners.size() > 4) return cut_polygon(corners, face);
-        // Squares are bent in all ways: along the diagonal that leaves both halves turned alike, or the shorter.
+        // Squares are bent in all ways: along the diagonal that leaves both halves turned alike, or the
+        // shorter.
         const auto at = [&](size_t i) { return places_[corners[i % 4].position]; };
         const auto alike = [&](size_t i) {
             return glm::dot(glm::cross(at(i + 1) - at(i), at(i + 2) - at(i)),

@@ -42,7 +42,7 @@ struct Piece {
 
 struct Pieces {
     const Model* model;
-    float unit_m;  // of the model's numbers
+    float unit_m;              // of the model's numbers
     std::vector<Vec3> places;  // metres
     std::vector<Vec2> uvs;
     std::vector<Piece> list;         // the largest first

@@ -28,11 +28,11 @@ SkeletonProbe::SkeletonProbe(const CookBody& body) : body_(body) {
     const TailorLevels& levels = body.outline().levels();
     const float axis_z = body.outline().axis_z();
     const Vec3 chest(0.0f, levels.bust, axis_z), neck = body.joint(VFIT_BONE_NECK),
-        head = body.joint(VFIT_BONE_HEAD), hips = body.joint(VFIT_BONE_HIPS);
+                                                 head = body.joint(VFIT_BONE_HEAD),
+                                                 hips = body.joint(VFIT_BONE_HIPS);
     const float crotch = hips.y - 0.5f * (levels.waist - levels.hip);
-    ways_[Parted::head] = {{"neck", chest, neck, {}},
-                           {"neck", neck, head, {}},
-                           {"", head, head + Vec3(0, kBeyond_m, 0), {}}};
+    ways_[Parted::head] = {
+        {"neck", chest, neck, {}}, {"neck", neck, head, {}}, {"", head, head + Vec3(0, kBeyond_m, 0), {}}};
     struct Side {
         const char* name;
         Limb leg, shank, arm, forearm;
@@ -153,9 +153,8 @@ bool SkeletonProbe::is_beyond(Parted::End end, const MeshQuery& cloth) const {
     return crossing(ways_[end].back(), cloth, Vec3(0.0f), Stance()).has_value();
 }
 
-Parted SkeletonProbe::parted(std::span<const Vec3> places,
-                             const std::vector<std::vector<uint32_t>>& openings, const Vec3& moved,
-                             const Stance& stance) const {
+Parted SkeletonProbe::parted(std::span<const Vec3> places, const std::vector<std::vector<uint32_t>>& openings,
+                             const Vec3& moved, const Stance& stance) const {
     // Closed far away, the ways to two ends are one loop: it goes through an opening that parts them an odd
     // number of times, whatever the surface that spans the opening.
     std::array<std::vector<bool>, 5> through;

@@ -18,9 +18,7 @@ struct Parted {
     std::array<uint8_t, 5> group{};
 
     /// One of these or the other of them is parted from the head by cloth over that shoulder.
-    bool over_shoulder() const {
-        return group[left_arm] != group[head] || group[right_arm] != group[head];
-    }
+    bool over_shoulder() const { return group[left_arm] != group[head] || group[right_arm] != group[head]; }
     bool legs_from_head() const { return group[left_leg] != group[head] || group[right_leg] != group[head]; }
     bool legs_from_each_other() const { return group[left_leg] != group[right_leg]; }
     int count() const { return 1 + *std::max_element(group.begin(), group.end()); }

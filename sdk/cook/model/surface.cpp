@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kFewestTriangles = 50;
 constexpr float kLeastArea_m2 = 1e-8f,
-                kLeastHeight_m = 5e-5f;  // of a triangle: lengths are written to a hundredth of a millimetre
+                kLeastHeight_m = 5e-5f;   // of a triangle: lengths are written to a hundredth of a millimetre
 constexpr float kLeastOpening_m = 0.25f;  // around: no head, arm or foot goes through less
 constexpr float kThick_m = 0.015f;
 
@@ -29,7 +29,11 @@ using Side = std::pair<uint32_t, uint32_t>;
 class SurfaceMaker {
 public:
     SurfaceMaker(const Pieces& pieces, const Piece& piece, float hole_m)
-        : model_(*pieces.model), uvs_(pieces.uvs), places_(pieces.places), triangles_(piece.triangles), hole_m_(hole_m) {}
+        : model_(*pieces.model),
+          uvs_(pieces.uvs),
+          places_(pieces.places),
+          triangles_(piece.triangles),
+          hole_m_(hole_m) {}
 
     Surface run() {
         check_triangles();
@@ -221,8 +225,8 @@ std::vector<GarmentPart> parts_of(const Model& model, const std::vector<ModelTri
     for (uint32_t t = 0; t < triangles.size(); ++t) {
         const uint32_t m = model.faces[triangles[t].face].material;
         if (t == 0 || m != model.faces[triangles[t - 1].face].material) {
-            const ModelMaterial material = m < model.materials.size() ? model.materials[m]
-                                                                      : ModelMaterial{"cloth", "", Vec3(0.8f)};
+            const ModelMaterial material =
+                m < model.materials.size() ? model.materials[m] : ModelMaterial{"cloth", "", Vec3(0.8f)};
             out.push_back({material.name, material.texture, material.color, t, 0});
         }
         ++out.back().triangle_count;

@@ -8,12 +8,12 @@
 #include <set>
 
 #include "avatar/gltf_document.h"
+#include "body/mesh.h"
 #include "cook/cook_file.h"
 #include "cook/garment_writer.h"
 #include "cook/model/gltf.h"
 #include "cook/model/obj.h"
 #include "cook/model/surface.h"
-#include "body/mesh.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "mesh_files.h"
@@ -164,7 +164,9 @@ TEST_F(MeshGarment, ComesToItsPlaceFromAnotherBodys) {
     EXPECT_EQ(raised.report.skin_crossings, 0u);
     // The men's waistcoat that was a women's: what lay within comes out.
     const Garment vest =
-        cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/vest.json"), *jobs).front().garment;
+        cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/vest.json"), *jobs)
+            .front()
+            .garment;
     std::vector<Vec3> forward = vest.mesh.positions;
     for (Vec3& p : forward) p.z += 0.1f;
     const CookedGarment mens =
@@ -208,7 +210,8 @@ TEST_F(MeshGarment, SmallTrianglesAreDrawnOnLargerOnes) {
     EXPECT_EQ(read.drawn_count(), g.drawn.vertex_count());
     CookRequest request = request_of(write("fine.obj", obj_of(fine)));
     request.remake = Remake::never;
-    EXPECT_TRUE(has_note(cook_file(*model, fabrics, request, *jobs).front().notes, "too small for its own layers"));
+    EXPECT_TRUE(
+        has_note(cook_file(*model, fabrics, request, *jobs).front().notes, "too small for its own layers"));
     TubeMesh coarse;
     coarse.columns = 12, coarse.rows = 5;
     EXPECT_TRUE(has_note(cook("coarse.obj", obj_of(coarse)).notes, "fold coarsely"));
@@ -290,9 +293,9 @@ TEST(ObjFile, NamesTheLineOfWhatCannotBeRead) {
 
 TEST_F(MeshGarment, FindsTheUnitAndWhichWayIsUp) {
     const std::vector<float> metres = side_lengths(TubeMesh().positions(), TubeMesh().triangles());
-    for (const auto& [unit, name] : {std::pair(100.0f, "centimetres"), std::pair(1000.0f, "millimetres"),
-                                     std::pair(10.0f, "decimetres"), std::pair(1.0f / 0.0254f, "inches"),
-                                     std::pair(1.0f / 0.3048f, "feet")}) {
+    for (const auto& [unit, name] :
+         {std::pair(100.0f, "centimetres"), std::pair(1000.0f, "millimetres"), std::pair(10.0f, "decimetres"),
+          std::pair(1.0f / 0.0254f, "inches"), std::pair(1.0f / 0.3048f, "feet")}) {
         TubeMesh tube;
         tube.unit = unit;
         const CookedGarment cooked = cook(std::string(name) + ".obj", obj_of(tube));
@@ -483,8 +486,9 @@ TEST_F(MeshGarment, PiecesThatAreNotJoinedBecomeOneOrAreNamed) {
     bottom.top_m = 0.798f;
     std::vector<uint32_t> below = bottom.squares();
     for (uint32_t& v : below) v += uint32_t(top.positions().size());
-    CookRequest request = request_of(write("two.obj", obj_of(top) + obj_vertices(bottom.positions(), bottom.uvs()) +
-                                                          "usemtl hem\n" + obj_faces(below, 4)));
+    CookRequest request =
+        request_of(write("two.obj", obj_of(top) + obj_vertices(bottom.positions(), bottom.uvs()) +
+                                        "usemtl hem\n" + obj_faces(below, 4)));
     const std::vector<CookedGarment> joined = cook_file(*model, fabrics, request, *jobs);
     ASSERT_EQ(joined.size(), 1u);
     EXPECT_EQ(joined[0].openings_m.size(), 2u);
@@ -505,10 +509,11 @@ TEST_F(MeshGarment, ASuitBecomesLayers) {
     std::vector<uint32_t> over = outer.squares();
     for (uint32_t& v : over) v += uint32_t(inner.positions().size());
     const std::string obj = obj_of(outer);
-    const std::vector<CookedGarment> suit = cook_file(
-        *model, fabrics,
-        request_of(write("suit.obj", obj_of(inner) + obj_vertices(outer.positions(), outer.uvs()) + obj_faces(over, 4))),
-        *jobs);
+    const std::vector<CookedGarment> suit =
+        cook_file(*model, fabrics,
+                  request_of(write("suit.obj", obj_of(inner) + obj_vertices(outer.positions(), outer.uvs()) +
+                                                   obj_faces(over, 4))),
+                  *jobs);
     ASSERT_EQ(suit.size(), 2u);
     EXPECT_EQ(suit[0].of_set, "skirt");
     EXPECT_EQ(suit[1].of_set, "skirt2");
