@@ -170,7 +170,8 @@ private:
             notes_.push_back(text(in_the_way.size(), " ends that were closed by cloth were cut open"));
     }
 
-    /// Places all in metres as the body has them, but for being moved. Returns by how much they were scaled.
+    /// Places all in metres as the body has them, except for being moved. Returns by how much they were
+    /// scaled.
     float align_pieces(bool size_known) {
         AlignmentOptions how = options_.alignment;
         if (options_.cook.kind_told) how.kind = options_.cook.kind;
@@ -215,7 +216,7 @@ private:
         std::vector<MeshQuery> cloths;
         for (const CookedGarment& cooked : garments)
             cloths.emplace_back(cooked.garment.cut_shape, cooked.garment.mesh.indices);
-        constexpr float kBeside_m = 0.08f, kMostBeside = 0.05f;
+        constexpr float kBeside_m = 0.08f, kMaxBeside = 0.05f;
         std::vector<std::vector<uint32_t>> triangles(garments.size());
         float beside_m2 = 0.0f, all_m2 = 0.0f;
         for (uint32_t t = 0; t < soup_.triangles.size(); ++t) {
@@ -229,7 +230,7 @@ private:
             all_m2 += area_of(soup_.places, soup_.triangles[t]);
             if (least > kBeside_m) beside_m2 += area_of(soup_.places, soup_.triangles[t]);
         }
-        if (beside_m2 > kMostBeside * all_m2)
+        if (beside_m2 > kMaxBeside * all_m2)
             fail(VFIT_ERROR_DATA, "the garment is in pieces: ", std::lround(100.0f * beside_m2 / all_m2),
                  " % of it are not joined to what goes round the body");
         for (size_t g = 0; g < garments.size(); ++g)
@@ -433,10 +434,10 @@ private:
         if (float(report.skin_crossings) > kMost * float(triangles))
             fail(VFIT_ERROR_DATA, "the garment is not worn: where it came to rest, the skin goes through ",
                  report.skin_crossings, " of its ", triangles, " triangles, most of them at the ",
-                 report.most_crossed);
+                 report.crossed_at);
     }
 
-    /// What lies on the shoulders stays there while the rest falls.
+    /// The cloth on the shoulders stays there while the rest falls.
     Hold on_shoulders(const std::vector<Vec3>& places) const {
         constexpr float kNeck_m = 0.03f, kBelowJoint_m = 0.03f, kOver_m = 0.04f, kUpwards = 0.6f;
         const Vec3 joint = body_.outline().left_shoulder();

@@ -116,7 +116,7 @@ void add_drape_notes(const DrapeReport& report, std::vector<std::string>& notes)
                              std::lround(100.0f * report.strain_p99), " % or more"));
     if (report.skin_crossings > 0)
         notes.push_back(text("the skin stands out of it in ", report.skin_crossings,
-                             " places, most of them at the ", report.most_crossed));
+                             " places, most of them at the ", report.crossed_at));
     if (report.self_crossings > 0)
         notes.push_back(text("it crosses itself in ", report.self_crossings, " places"));
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Cooks every GarmentCode specification and mesh below a folder, as a user would, and counts what became of
-them: worn without a crossing, worn with crossings, worn otherwise than its kind is, refused. Measures that lie
-beside a pattern are used (vfit cook).
+them: worn without a crossing, worn with crossings, worn otherwise than its kind is, refused. Measures that
+lie beside a pattern are used (vfit cook).
 """
 
 import argparse

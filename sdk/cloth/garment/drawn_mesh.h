@@ -12,7 +12,7 @@ namespace vfit {
 
 class MeshQuery;
 
-/// One item a drawn vertex, but for the indices.
+/// One item a drawn vertex, except the indices.
 struct DrawnMesh {
     std::vector<uint32_t> triangles;  // of the simulated mesh, each the closest
     std::vector<Vec2> weights;        // of its second and third corner, where the closest point is

@@ -48,7 +48,7 @@ public:
         std::array<size_t, kBodyPartCount> count{};
         for (const auto& [cloth, skin] : crossed) ++count[size_t(body_.parts()[body_.indices()[3 * skin]])];
         if (!crossed.empty())
-            out.report.most_crossed =
+            out.report.crossed_at =
                 part_name(BodyPart(std::max_element(count.begin(), count.end()) - count.begin()));
         return out;
     }

@@ -26,7 +26,7 @@ struct DrapeReport {
     float raised_m = 0.0f;
     float widest_seam_m = 0.0f;                       // before what it joins became one
     uint32_t skin_crossings = 0, self_crossings = 0;  // pairs of triangles, at rest
-    std::string most_crossed;                         // where most of the skin's are: "left forearm"
+    std::string crossed_at;                           // where most of the skin's are: "left forearm"
     uint32_t crossings() const { return skin_crossings + self_crossings; }
     float strain_p99 = 0.0f;
     double seconds = 0.0;

@@ -48,7 +48,7 @@ struct Box {
     Vec3 middle() const { return 0.5f * (low + high); }
 };
 
-/// Garments stand in one place but for a little.
+/// Garments stand about the same place; a small offset is their own.
 float only_if_far(float metres) {
     constexpr float kFar_m = 0.03f;
     return std::abs(metres) > kFar_m ? metres : 0.0f;
@@ -87,7 +87,7 @@ public:
     const std::vector<Vec3>& places() const { return places_; }
     const std::vector<std::vector<uint32_t>>& openings() const { return openings_; }
 
-    /// What brings the cloth over the shoulders onto the body's, from that share of the way to the joint:
+    /// What brings the cloth over the shoulders onto the body's, from a fraction of the way to the joint:
     /// further in there may be a hood. None where there is no such cloth on both sides.
     std::optional<Vec3> by_shoulders(float inner, float thickness_m) const {
         constexpr float kSlope_m = 0.08f, kAnywhere_m = 0.3f, kStep_m = 0.01f, kSame_m = 0.03f;
@@ -236,7 +236,7 @@ private:
         const TailorLevels& levels = body_.outline().levels();
         const float around = length_around(places_, edge);
         constexpr float kStep_m = 0.005f, kStretched_m = 0.02f,
-                        kFilled = 0.85f;  // stretched around by so much; filled by so much
+                        kFilled = 0.85f;  // around, that it stretches; fraction, that is filled
         float best = levels.waist, least = INFINITY;
         for (float y = levels.waist; y > levels.hip; y -= kStep_m) {
             const float girth = body_.outline().at(y).perimeter();

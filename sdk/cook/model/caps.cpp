@@ -62,7 +62,7 @@ private:
     }
 
     bool is_cap(uint32_t of, const std::vector<uint32_t>& patch) {
-        constexpr float kLeastRing_m = 0.12f, kMostRing_m = 2.5f, kFlat = 1.8f;
+        constexpr float kMinRing_m = 0.12f, kMaxRing_m = 2.5f, kFlat = 1.8f;
         // Collars and cuffs have ragged edges; what is as large as a waist has not, or is a panel.
         constexpr float kRound = 0.35f, kWaist_m2 = 0.03f, kRoundWaist = 0.7f;
         std::set<uint32_t> vertices;
@@ -91,7 +91,7 @@ private:
         }
         // A disc, about round and flat.
         if (int(vertices.size()) - int(all.size()) + int(patch.size()) != 1) return false;
-        if (around < kLeastRing_m || around > kMostRing_m) return false;
+        if (around < kMinRing_m || around > kMaxRing_m) return false;
         const float of_circle = area * 4.0f * kPi / (around * around);
         if (of_circle < (area > kWaist_m2 ? kRoundWaist : kRound) || of_circle > kFlat) return false;
         if (!std::all_of(on_ring.begin(), on_ring.end(), [](const auto& v) { return v.second == 2; }))

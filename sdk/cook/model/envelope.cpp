@@ -123,7 +123,7 @@ private:
                     add(a + (float(u) * (b - a) + float(v) * (c - a)) / float(steps));
         }
         cells_.assign(found.begin(), found.end());
-        if (cells_.size() > kMostCells)
+        if (cells_.size() > kMaxCells)
             fail(VFIT_ERROR_DATA, "the garment's surface is too large to be made anew");
     }
 
@@ -197,8 +197,8 @@ private:
         return out;
     }
 
-    /// The winding number goes on across openings: away from the cloth, or across its end. What lies across
-    /// it but comes to no end is a fold.
+    /// The winding number goes on across openings: away from the cloth, or across its end. A patch across it
+    /// that comes to no end is a fold.
     void leave_out_what_is_no_cloth() {
         constexpr float kOff = 0.9f, kAlong = 0.4f;  // of the side; cosine
         std::vector<uint8_t> no_cloth(triangles_.size(), 0), ends(triangles_.size(), 0);
@@ -292,7 +292,7 @@ private:
         return out;
     }
 
-    /// Each to the middle of those beside it; of a border, along the border, but for small holes, which would
+    /// Each to the middle of those beside it; of a border, along the border, except small holes, which would
     /// shrink to nothing.
     std::vector<Vec3> smoothed() const {
         constexpr size_t kHole = 12;  // vertices
@@ -328,14 +328,14 @@ private:
     /// Slivers that are left in sharp folds.
     void even_out() {
         constexpr int kRounds = 20;
-        constexpr float kLeastHeight = 0.15f;  // of the side
+        constexpr float kMinHeight = 0.15f;  // of the side
         for (int round = 0; round < kRounds; ++round) {
             std::vector<uint8_t> moves(places_.size(), 0);
             bool any = false;
             for (const auto& t : triangles_) {
                 const Vec3 &a = places_[t[0]], &b = places_[t[1]], &c = places_[t[2]];
                 const float longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
-                if (glm::length(glm::cross(b - a, c - a)) >= kLeastHeight * side_m_ * longest) continue;
+                if (glm::length(glm::cross(b - a, c - a)) >= kMinHeight * side_m_ * longest) continue;
                 for (const uint32_t v : t) moves[v] = 1;
                 any = true;
             }
@@ -347,11 +347,11 @@ private:
     }
 
     void leave_out_slivers() {
-        constexpr float kLeastHeight = 0.02f;  // of the side
+        constexpr float kMinHeight = 0.02f;  // of the side
         std::erase_if(triangles_, [&](const std::array<uint32_t, 3>& t) {
             const Vec3 &a = places_[t[0]], &b = places_[t[1]], &c = places_[t[2]];
             const float longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
-            return !(glm::length(glm::cross(b - a, c - a)) >= kLeastHeight * side_m_ * longest);
+            return !(glm::length(glm::cross(b - a, c - a)) >= kMinHeight * side_m_ * longest);
         });
     }
 
@@ -367,7 +367,7 @@ private:
         return out;
     }
 
-    static constexpr size_t kMostCells = 400000;
+    static constexpr size_t kMaxCells = 400000;
     static constexpr int kRounds = 4;  // after them it lies on the cloth, and triangles are even
     const Soup& soup_;
     float side_m_;

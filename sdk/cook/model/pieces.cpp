@@ -15,7 +15,7 @@ namespace vfit {
 namespace {
 
 constexpr float kOnePlace_m = 1e-4f;  // closer than that, vertices are one
-constexpr size_t kMostTriangles = 500000;
+constexpr size_t kMaxTriangles = 500000;
 constexpr float kLeastArea_m2 = 1e-8f;
 
 /// Vertices at one place by a grid of cells as large as the tolerance.
@@ -182,9 +182,9 @@ private:
                 ++copies;
         }
         triangles_ = std::move(kept);
-        if (triangles_.size() > kMostTriangles)
+        if (triangles_.size() > kMaxTriangles)
             fail(VFIT_ERROR_DATA, "the mesh has ", triangles_.size(), " triangles, a garment at most ",
-                 kMostTriangles, ": make it coarser");
+                 kMaxTriangles, ": make it coarser");
         if (copies > 0) notes_.push_back(text(copies, " triangles are left out that are there twice"));
     }
 
