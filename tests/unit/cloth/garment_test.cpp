@@ -102,7 +102,7 @@ TEST(Garment, RefusesBadFieldsByName) {
     EXPECT_EQ(refusal("\"hip_girth_m\"", "\"tail_girth_m\""),
               "-11 garment: size L names the unknown measure tail_girth_m");
     EXPECT_EQ(refusal("0.8}", "-0.8}"), "-11 garment: chest_girth_m of size S is -0.8 m");
-    EXPECT_EQ(refusal("\"version\": 1", "\"version\": 4"), "-8 garment: version 4 is not known, 1 to 3 are");
+    EXPECT_EQ(refusal("\"version\": 1", "\"version\": 5"), "-8 garment: version 5 is not known, 1 to 4 are");
     EXPECT_EQ(refusal("vfit-garment", "garment"), "-11 garment: format is not \"vfit-garment\"");
 }
 
@@ -126,6 +126,40 @@ TEST(Garment, AShapeOfItsOwnLengthsIsReadAndChecked) {
     EXPECT_EQ(refused("\"shape\": [0,2]"), "-11 garment: \"shape\" is not a flat array of 3 numbers an item");
     EXPECT_EQ(refused("\"shape\": [0,2,0, 2,2,0, 0,0,0, 2,0,0], \"flat\": [0,0, 1,0, 0,1, 1,1]"),
               "-11 garment: there are both \"flat\" and \"shape\": its lengths are the one or the other");
+}
+
+TEST(Garment, ADrawnMeshIsReadAndChecked) {
+    const std::string good =
+        R"("drawn": {"triangles": [0,1,1], "weights": [0,0, 1,0, 0,1], "offsets": [0,0,0.1, 0,0,0, 0,0,0],)"
+        R"( "normals": [0,0,1, 0,0,1, 0,0,1], "uvs": [0,0, 1,0, 0,1], "indices": [0,1,2]})";
+    const auto with_drawn = [&](const std::string& drawn) {
+        return with("\"scarf\"", "\"scarf\", " + drawn);
+    };
+    const Garment g = parse(with_drawn(good));
+    EXPECT_EQ(g.drawn_count(), 3u);
+    EXPECT_EQ(g.drawn_indices().size(), 3u);
+    EXPECT_EQ(g.uv_count(), 4u);
+    const auto refused = [&](const std::string& from, const std::string& to) {
+        std::string drawn = good;
+        const size_t at = drawn.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return error_of([&] { parse(with_drawn(drawn.replace(at, from.size(), to))); });
+    };
+    EXPECT_EQ(refused("[0,1,1]", "[0,1,2]"), "-11 garment: vertex 2 of \"drawn\" names triangle 2 of 2");
+    EXPECT_EQ(
+        refused("[0,1,1]", "[0,1]"),
+        "-11 garment: the lists of \"drawn\" are not of equal length: 2 triangles, 3 weights, 3 offsets, 3 "
+        "normals, 3 uvs");
+    EXPECT_EQ(refused("1,0, 0,1]", "1,0, 0.5,1]"),
+              "-11 garment: the weights of vertex 2 of \"drawn\" are not in its triangle");
+    EXPECT_EQ(
+        refused("0,0,0.1", "0,0,1e39"),
+        "-11 garment: vertex 0 of \"drawn\" has numbers that are not finite, or an offset of more than 10 m");
+    EXPECT_EQ(refused("[0,1,2]", "[0,1,3]"), "-11 garment: index 2 of \"drawn\" names vertex 3 of 3");
+    EXPECT_EQ(refused("[0,1,2]", "[0,1]"), "-11 garment: 2 indices of \"drawn\" are no list of triangles");
+    EXPECT_EQ(refused("\"uvs\"", "\"vus\""), "-11 garment: field \"uvs\" is missing");
+    EXPECT_EQ(error_of([&] { parse(with_drawn("\"drawn\": 3")); }),
+              "-11 garment: \"drawn\" is not an object");
 }
 
 TEST(Garment, RefusesEveryCutOfItsText) {
