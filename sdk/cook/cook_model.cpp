@@ -180,10 +180,11 @@ private:
         alignment_ = align(pieces_, body_, how);
         notes_.insert(notes_.end(), alignment_.notes.begin(), alignment_.notes.end());
         const float scale = alignment_.scale;
+        moved_ += alignment_.moved;
         for (std::vector<Vec3>* places : {&pieces_.places, &soup_.places})
-            for (Vec3& p : *places) p = scale * (alignment_.turn * p);
+            for (Vec3& p : *places) p = alignment_.place(p);
         soup_.unit_m *= scale;
-        alignment_.turn = Mat3(1.0f), alignment_.scale = 1.0f;
+        alignment_.turn = Mat3(1.0f), alignment_.scale = 1.0f, alignment_.moved = Vec3(0.0f);
         return scale;
     }
 
@@ -205,7 +206,8 @@ private:
         }
         if (anew_ || has_trims_) draw_as_modelled(out);
         std::vector<std::string>& notes = out.front().notes;
-        notes_.insert(notes_.begin(), soup_.notes.begin(), soup_.notes.end());
+        const std::vector<std::string>& read = anew_ ? soup_.notes : pieces_.notes;
+        notes_.insert(notes_.begin(), read.begin(), read.end());
         notes_.insert(notes_.begin(), model_.notes.begin(), model_.notes.end());
         notes.insert(notes.begin(), notes_.begin(), notes_.end());
         return out;
@@ -370,7 +372,7 @@ private:
         const DrapeReport placed = out.report;
         out.report = draped.report;
         out.report.hangs_on = placed.hangs_on;
-        out.report.raised_m = alignment_.moved.y;
+        out.report.raised_m = moved_.y;
         g.mesh.positions = draped.positions;
         g.simulated = draped.simulated;
         g.backstop.assign(g.vertex_count(), 0);
@@ -475,9 +477,9 @@ private:
                    std::vector<std::string>& notes) const {
         const auto percent = [](float share) { return int(share * 100.0f + 0.5f); };
         constexpr float kMuch = 0.05f;
-        if (alignment_.moved.z != 0.0f)
-            notes.push_back(text("it stood ", percent(std::abs(alignment_.moved.z)), " cm too far ",
-                                 alignment_.moved.z < 0.0f ? "forward" : "back", " and was moved"));
+        if (moved_.z != 0.0f)
+            notes.push_back(text("it stood ", percent(std::abs(moved_.z)), " cm too far ",
+                                 moved_.z < 0.0f ? "forward" : "back", " and was moved"));
         if (inside.share > kMuch)
             notes.push_back(text(percent(inside.share), " % of the vertices lay in the body, up to ",
                                  percent(inside.deepest_m), " cm deep: it was modelled on a slimmer one"));
@@ -510,6 +512,7 @@ private:
     int stage_ = 0;
     Pieces pieces_;
     Alignment alignment_;
+    Vec3 moved_{0.0f};  // in all
     std::vector<std::string> notes_;
 };
 

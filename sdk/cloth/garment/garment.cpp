@@ -246,8 +246,11 @@ void validate_drawn(const Garment& g) {
         if (!(w.x >= 0.0f && w.y >= 0.0f && w.x + w.y <= 1.001f))
             fail(VFIT_ERROR_DATA, "garment: the weights of vertex ", i,
                  " of \"drawn\" are not in its triangle");
-        if (!finite(d.offsets[i]) || glm::length(d.offsets[i]) > kFarthest_m || !finite(d.normals[i]) ||
-            !finite(d.uvs[i].x) || !finite(d.uvs[i].y))
+        const float normal = finite(d.normals[i]) ? glm::length(d.normals[i]) : 0.0f;
+        if (!(normal > 0.5f && normal < 2.0f))
+            fail(VFIT_ERROR_DATA, "garment: the normal of vertex ", i, " of \"drawn\" is not of unit length");
+        if (!finite(d.offsets[i]) || glm::length(d.offsets[i]) > kFarthest_m || !finite(d.uvs[i].x) ||
+            !finite(d.uvs[i].y))
             fail(VFIT_ERROR_DATA, "garment: vertex ", i,
                  " of \"drawn\" has numbers that are not finite, or an "
                  "offset of more than ",

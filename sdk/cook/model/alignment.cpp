@@ -97,7 +97,7 @@ public:
         Box top;
         constexpr float kTop = 0.3f;
         for (const uint32_t v : indices_)
-            if (places_[v].y > glm::mix(box_.high.y, box_.low.y, kTop)) top.add(places_[v]);
+            if (places_[v].y >= glm::mix(box_.high.y, box_.low.y, kTop)) top.add(places_[v]);
         std::vector<float> raise;
         float forward = 0.0f;
         for (const float side : {-1.0f, 1.0f}) {
@@ -135,7 +135,7 @@ public:
         Box top;
         constexpr float kTop = 0.3f;
         for (const uint32_t v : indices_)
-            if (places_[v].y > glm::mix(box_.high.y, box_.low.y, kTop)) top.add(places_[v]);
+            if (places_[v].y >= glm::mix(box_.high.y, box_.low.y, kTop)) top.add(places_[v]);
         Vec3 moved(-x_, 0.0f, only_if_far(outline.axis_z() - top.middle().z));
         for (int round = 0; round < 2; ++round) {
             std::vector<Vec3> there = places_;
