@@ -346,7 +346,7 @@ private:
         g.cut_shape = surface.positions;
         const std::vector<Vec2> cut = cut_corners(g);
         const WholeCloth cloth{surface.indices, cut, &material};
-        if (!as_they_are && !keeps_layers_apart(cloth, thickness))
+        if (!as_they_are && (!keeps_layers_apart(cloth, thickness) || is_of_needles(cloth)))
             fail(VFIT_ERROR_DATA, "its triangles are too small for its own layers to be kept apart");
         std::vector<Vec3> places = surface.positions;
         for (Vec3& p : places) p += alignment_.moved;
@@ -453,6 +453,18 @@ private:
             hold.of.push_back(is_there && closest.distance < kOver_m && closest.normal.y > kUpwards);
         }
         return hold;
+    }
+
+    /// Where many long triangles meet in a point, all of them are in contact there.
+    static bool is_of_needles(const WholeCloth& cloth) {
+        constexpr float kMinHeight = 0.2f;  // of the mean side
+        double height = 0.0;
+        for (size_t i = 0; i + 2 < cloth.cut.size(); i += 3) {
+            const Vec2 a = cloth.cut[i + 1] - cloth.cut[i], b = cloth.cut[i + 2] - cloth.cut[i];
+            const float longest = std::max({glm::length(a), glm::length(b), glm::length(b - a)});
+            if (longest > 0.0f) height += double(std::abs(a.x * b.y - a.y * b.x) / longest);
+        }
+        return height < double(kMinHeight * mean_side(cloth)) * double(cloth.cut.size() / 3);
     }
 
     struct Inside {

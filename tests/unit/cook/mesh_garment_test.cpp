@@ -332,6 +332,13 @@ TEST_F(MeshGarment, FindsTheUnitAndWhichWayIsUp) {
     refused(1.0f, 0.2f, {"goes round nothing"});
     tube.unit = 1e6f;
     refused(0.0f, 0.0f, {"size can't be told", "--scale"});
+    // Flat in any direction.
+    std::string sheet;
+    for (int i = 0; i < 121; ++i)
+        sheet += vfit::text("v ", 0.1f * float(i % 11), " 1 ", 0.1f * float(i / 11), "\n");
+    for (int i = 0; i < 109; ++i)
+        if (i % 11 != 10) sheet += vfit::text("f ", i + 1, " ", i + 2, " ", i + 13, " ", i + 12, "\n");
+    EXPECT_THROW(cook("sheet.obj", sheet), Error);
 }
 
 TEST(MeshSurface, RefusesWhatIsNoClothByName) {
