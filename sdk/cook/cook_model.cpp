@@ -112,7 +112,8 @@ public:
         anew_ = anew;
         if (anew)
             bring_to_body(opened, [&](const Soup& soup) {
-                // Of what is as large as a tent, for now, coarser ones.
+                // In a unit that is too large the sheet would have millions of triangles: coarser ones tell
+                // the size.
                 constexpr float kMostArea_m2 = 6.0f;
                 float area_m2 = 0.0f;
                 for (const ModelTriangle& t : soup.triangles) area_m2 += area_of(soup.places, t);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <tuple>
 
 #include "cook/drape/upper_edge.h"
 #include "core/error.h"
@@ -47,6 +46,16 @@ struct Box {
     void add(const Vec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
     Vec3 middle() const { return 0.5f * (low + high); }
 };
+
+/// Arms first: what they leave by is no leg's.
+struct WholeLimb {
+    Limb limb, lower;
+    bool is_arm;
+};
+constexpr std::array<WholeLimb, 4> kWholeLimbs = {{{Limb::left_arm, Limb::left_forearm, true},
+                                                   {Limb::right_arm, Limb::right_forearm, true},
+                                                   {Limb::left_leg, Limb::left_shank, false},
+                                                   {Limb::right_leg, Limb::right_shank, false}}};
 
 /// Garments stand about the same place; a small offset is their own.
 float only_if_far(float metres) {
@@ -166,10 +175,7 @@ public:
     Stance stance(const SkeletonProbe& probe, const Vec3& moved, bool has_sleeves) const {
         Stance out;
         const std::vector<uint32_t>* taken[2] = {nullptr, nullptr};
-        for (const auto& [limb, lower, is_arm] : {std::tuple(Limb::left_arm, Limb::left_forearm, true),
-                                                  std::tuple(Limb::right_arm, Limb::right_forearm, true),
-                                                  std::tuple(Limb::left_leg, Limb::left_shank, false),
-                                                  std::tuple(Limb::right_leg, Limb::right_shank, false)}) {
+        for (const auto& [limb, lower, is_arm] : kWholeLimbs) {
             if (is_arm && !has_sleeves) continue;
             const auto* opening = end_of(limb, moved);
             if (!opening || opening == taken[0] || opening == taken[1]) continue;
@@ -191,10 +197,7 @@ public:
     /// Whether sleeves or legs end far beyond hands and feet.
     bool is_too_long(const Vec3& moved, bool has_sleeves) const {
         constexpr float kMost = 1.4f;  // of the way to wrist and ankle
-        for (const auto& [limb, lower, is_arm] : {std::tuple(Limb::left_arm, Limb::left_forearm, true),
-                                                  std::tuple(Limb::right_arm, Limb::right_forearm, true),
-                                                  std::tuple(Limb::left_leg, Limb::left_shank, false),
-                                                  std::tuple(Limb::right_leg, Limb::right_shank, false)}) {
+        for (const auto& [limb, lower, is_arm] : kWholeLimbs) {
             if (is_arm && !has_sleeves) continue;
             const auto* opening = end_of(limb, moved);
             if (!opening) continue;
