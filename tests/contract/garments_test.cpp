@@ -325,6 +325,46 @@ TEST_F(GarmentsTest, AreCarriedFromTheBodyThatTheyWereMadeOn) {
     EXPECT_LT(waist_of(her), on_her - 0.02f);
 }
 
+TEST_F(GarmentsTest, ADrawnMeshGoesWithTheSimulatedOne) {
+    std::ifstream stream(VFIT_DATA_DIR "/garments/sundress_pattern.json", std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const auto load = [&] {
+        vfit_garment garment{};
+        EXPECT_EQ(vfit_garment_load(context, text.data(), text.size(), &garment), VFIT_OK)
+            << contract::last_error();
+        return garment;
+    };
+    const auto simulated = positions(worn(body(), load(), nullptr, 20));
+    // The corners of a triangle, and a place a centimetre off the first, in place of all others.
+    for (const auto& [from, to] :
+         {std::pair<std::string, std::string>("\"version\": 2", "\"version\": 4"),
+          {"\"parts\"",
+           R"("drawn": {"triangles": [100,100,100,100], "weights": [0,0, 1,0, 0,1, 0,0],)"
+           R"( "offsets": [0,0,0, 0,0,0, 0,0,0, 0,0,0.01], "normals": [0,0,1, 0,0,1, 0,0,1, 0,0,1],)"
+           R"( "uvs": [0,0, 1,0, 0,1, 0,0], "indices": [0,1,2]}, "parts_of_the_other")"}}) {
+        const size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        text.replace(at, from.size(), to);
+    }
+    const vfit_cloth cloth = worn(body(), load(), nullptr, 20);
+    const auto drawn = positions(cloth);
+    ASSERT_EQ(drawn.size(), 4u);
+    const auto apart = [](const auto& a, const auto& b) {
+        return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    };
+    for (size_t i = 0; i < 3; ++i) {
+        float least = INFINITY;
+        for (const auto& p : simulated) least = std::min(least, apart(p, drawn[i]));
+        EXPECT_LT(least, 1e-5f) << i;
+        EXPECT_GT(apart(drawn[i], drawn[(i + 1) % 3]), 0.005f);
+    }
+    EXPECT_NEAR(apart(drawn[0], drawn[3]), 0.01f, 1e-4f);
+    std::vector<float> tight(4);
+    EXPECT_EQ(vfit_cloth_fit_map(cloth, tight.data(), 4), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(tight[0], tight[3]);
+    EXPECT_EQ(vfit_cloth_fit_map(cloth, tight.data(), 3), VFIT_ERROR_ARGUMENT);
+}
+
 TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {
     const vfit_avatar avatar = body();
     for (const char* name : {"shirt_men", "sundress_pattern", "duster"}) {
