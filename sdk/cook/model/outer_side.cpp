@@ -53,6 +53,10 @@ public:
             if (is_inner(t, along)) continue;
             const uint32_t* v = &indices_[3 * size_t(t)];
             out.indices.insert(out.indices.end(), {v[0], along ? v[1] : v[2], along ? v[2] : v[1]});
+            if (const int steps = steps_of(t); steps > 1) {
+                add_parts(t, steps, along, out.facets);
+                continue;
+            }
             Facet& facet = facets[patch_of_[t]];
             facet.area += (along ? 1.0f : -1.0f) * area_[t] * normal_[t];
             facet.at += area_[t] * middle(t);
@@ -66,6 +70,27 @@ public:
 private:
     Vec3 corner(uint32_t t, size_t k) const { return soup_.places[indices_[3 * size_t(t) + k]]; }
     Vec3 middle(uint32_t t) const { return (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0f; }
+
+    /// How many times larger than a patch its sides are.
+    int steps_of(uint32_t t) const {
+        constexpr float kMaxSteps = 64.0f;
+        const float longest =
+            std::max({glm::length(corner(t, 1) - corner(t, 0)), glm::length(corner(t, 2) - corner(t, 1)),
+                      glm::length(corner(t, 0) - corner(t, 2))});
+        return int(std::clamp(std::ceil(longest / cell_m_), 1.0f, kMaxSteps));
+    }
+    /// A large triangle as facets that are as small as the others.
+    void add_parts(uint32_t t, int steps, bool along, std::vector<Facet>& out) const {
+        const Vec3 u = (corner(t, 1) - corner(t, 0)) / float(steps),
+                   v = (corner(t, 2) - corner(t, 0)) / float(steps),
+                   area = (along ? 1.0f : -1.0f) * area_[t] / float(steps * steps) * normal_[t];
+        for (int i = 0; i < steps; ++i)
+            for (int j = 0; i + j < steps; ++j) {
+                const Vec3 at = corner(t, 0) + float(i) * u + float(j) * v;
+                out.push_back({at + (u + v) / 3.0f, area});
+                if (i + j + 1 < steps) out.push_back({at + 2.0f * (u + v) / 3.0f, area});
+            }
+    }
 
     void make_patches() {
         std::map<std::tuple<int, int, int, int>, uint32_t> known;

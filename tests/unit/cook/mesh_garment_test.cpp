@@ -506,6 +506,18 @@ TEST_F(MeshGarment, PiecesThatAreNotJoinedBecomeOneOrAreNamed) {
     expect_not_cooked(request, {"in pieces", "\"hem\"", "2 mm away"});
 }
 
+TEST_F(MeshGarment, LargeTrianglesStayOneGarment) {
+    TubeMesh coarse;
+    coarse.columns = 8, coarse.rows = 2;  // too few to fold
+    const std::vector<CookedGarment> made =
+        cook_file(*model, fabrics, request_of(write("coarse.obj", obj_of(coarse))), *jobs);
+    ASSERT_EQ(made.size(), 1u);
+    EXPECT_TRUE(has_note(made[0].notes, "made anew"));
+    EXPECT_FALSE(has_note(made[0].notes, "holes"));
+    EXPECT_EQ(made[0].openings_m.size(), 2u);
+    EXPECT_EQ(made[0].garment.drawn.indices.size(), coarse.triangles().size());
+}
+
 TEST_F(MeshGarment, ASuitBecomesLayers) {
     // A skirt, and a wider and shorter one over it.
     TubeMesh inner, outer;
