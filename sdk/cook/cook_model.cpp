@@ -385,6 +385,10 @@ private:
         out.round = goes_round(g.mesh.positions, g.mesh.indices, body_);
         if (worn.parted.over_shoulder()) out.round.push_back("shoulders");
         check_still_on(worn, g, surface);
+        if (std::find(g.simulated.begin(), g.simulated.end(), 0) == g.simulated.end())
+            fail(VFIT_ERROR_DATA,
+                 "the garment slides off the shoulders of this body: no part of it lies on them when it has "
+                 "fallen");
         check_shape(out.report, g.mesh.positions);
         check_free(out.report, surface.indices.size() / 3);
         check_worn(out.round, options_.cook.kind_told ? options_.cook.kind : "");
@@ -507,8 +511,6 @@ private:
                      " mm large: too small for its own layers to be kept apart while it settled (20 mm do "
                      "well)"));
         add_drape_notes(draped.report, notes);
-        if (std::find(draped.simulated.begin(), draped.simulated.end(), 0) == draped.simulated.end())
-            notes.push_back("it is held nowhere: all of it is simulated, and may slide off");
     }
 
     // Around: smaller ones are buttonholes, eyelets and slips of the modeller; of a surface that was made
