@@ -535,6 +535,7 @@ private:
 
 std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& model,
                                       const FabricLibrary& fabrics, const ModelOptions& options, Jobs& jobs) {
+    check_no_strays(model);
     // As it was modelled, or with its ends opened, or made anew: the first that is worn without a crossing,
     // else the one with the fewest.
     std::vector<CookedGarment> best;

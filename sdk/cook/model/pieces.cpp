@@ -14,7 +14,8 @@ namespace vfit {
 
 namespace {
 
-constexpr float kOnePlace_m = 1e-4f;  // closer than that, vertices are one
+constexpr float kOnePlace_m = 1e-4f;      // closer than that, vertices are one
+constexpr float kFarFromOrigin_m = 1e6f;  // no garment lies there, and cells could not be counted
 constexpr size_t kMaxTriangles = 500000;
 constexpr float kLeastArea_m2 = 1e-8f;
 
@@ -72,7 +73,12 @@ private:
         vertex_of_.assign(model_.positions.size(), UINT32_MAX);
         for (const ModelCorner& corner : model_.corners) {
             uint32_t& v = vertex_of_[corner.position];
-            if (v == UINT32_MAX) v = weld.add(model_.positions[corner.position] * unit_m_, places_);
+            if (v != UINT32_MAX) continue;
+            const Vec3 p = model_.positions[corner.position] * unit_m_;
+            if (!(glm::length(p) < kFarFromOrigin_m))
+                fail(VFIT_ERROR_DATA, "vertex ", corner.position + 1, " lies ", glm::length(p) / 1000.0f,
+                     " km from the origin");
+            v = weld.add(p, places_);
         }
     }
 
@@ -313,6 +319,32 @@ std::vector<uint32_t> Soup::indices() const {
     std::vector<uint32_t> out;
     for (const ModelTriangle& t : triangles) out.insert(out.end(), t.vertex.begin(), t.vertex.end());
     return out;
+}
+
+void check_no_strays(const Model& model) {
+    constexpr float kStray = 100.0f;  // times as far from the middle as half of them are
+    std::vector<Vec3> corners;
+    for (const ModelCorner& corner : model.corners) corners.push_back(model.positions[corner.position]);
+    if (corners.empty()) return;
+    const auto median = [](std::vector<float> of) {
+        std::nth_element(of.begin(), of.begin() + long(of.size() / 2), of.end());
+        return of[of.size() / 2];
+    };
+    Vec3 middle;
+    std::vector<float> numbers(corners.size());
+    for (int k = 0; k < 3; ++k) {
+        for (size_t i = 0; i < corners.size(); ++i) numbers[i] = corners[i][k];
+        middle[k] = median(numbers);
+    }
+    for (size_t i = 0; i < corners.size(); ++i) numbers[i] = glm::length(corners[i] - middle);
+    const float usual = median(numbers);
+    for (size_t f = 0; f < model.faces.size(); ++f)
+        for (uint32_t i = 0; i < model.faces[f].corner_count; ++i) {
+            const uint32_t corner = model.faces[f].first_corner + i;
+            if (usual > 0.0f && numbers[corner] > kStray * usual)
+                fail(VFIT_ERROR_DATA, model.name_of(f), " has a corner at ", shown(corners[corner]),
+                     ", over ", kStray, " times as far out as half of the others");
+        }
 }
 
 Soup make_soup(const Model& model, float unit_m) { return SoupMaker(model, unit_m).run(); }

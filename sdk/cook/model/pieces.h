@@ -27,6 +27,9 @@ struct Soup {
     std::vector<uint32_t> indices() const;
 };
 
+/// VFIT_ERROR_DATA where a vertex lies far from all others: the garment would be a speck beside it.
+void check_no_strays(const Model& model);
+
 /// VFIT_ERROR_DATA says what is no mesh, and where. model must outlive it.
 Soup make_soup(const Model& model, float unit_m);
 /// Of a model of triangles whose vertices are joined as they should be.

@@ -336,6 +336,12 @@ TEST_F(MeshGarment, FindsTheUnitAndWhichWayIsUp) {
     refused(1.0f, 0.2f, {"goes round nothing"});
     tube.unit = 1e6f;
     refused(0.0f, 0.0f, {"size can't be told", "--scale"});
+    for (const char* far : {"v 1e6 0 0", "v 0 -4e18 0", "v 0 0 3e38"}) {
+        tube.unit = 1.0f;
+        const std::string stray = vfit::text(far, "\nf 1 2 ", tube.positions().size() + 1, "\n");
+        expect_not_cooked(request_of(write("stray.obj", obj_of(tube) + stray)),
+                          {"the face in line", "as far out"});
+    }
     // Flat in any direction.
     std::string sheet;
     for (int i = 0; i < 121; ++i)
@@ -388,6 +394,7 @@ TEST(MeshSurface, RefusesWhatIsNoClothByName) {
         band += vfit::text("f ", a, " ", b, " ", c, "\nf ", a, " ", c, " ", a + 1, "\n");
     }
     expect_refused(band, {"no outside", "the face in line"});
+    expect_refused(good + "v 0 4e18 0\nf 1 2 " + next(1) + "\n", {"km from the origin"});
 }
 
 /// The same tube again around it, or within it.
@@ -730,7 +737,7 @@ TEST(MeshFiles, DamageIsAnErrorAndNothingElse) {
 TEST_F(MeshGarment, WhatIsAcceptedAfterDamageIsAGarmentOrAnError) {
     TubeMesh small;
     small.columns = 12, small.rows = 5;
-    EXPECT_GT(damaged(obj_of(small), 8, 24, [&](const std::string& bad) { cook("x.obj", bad); }), 2);
+    EXPECT_GT(damaged(obj_of(small), 8, 12, [&](const std::string& bad) { cook("x.obj", bad); }), 2);
 }
 
 }  // namespace
