@@ -132,6 +132,15 @@ CookedGarment cook_design(const BodyModel& model, const FabricLibrary& fabrics, 
     return cooked;
 }
 
+constexpr const char *kDesign = "vfit-design", *kSundress = "vfit-sundress";
+
+/// Of a JSON file; empty where it states none.
+std::string format_of(const std::vector<std::byte>& text) {
+    const Json root = parse_json(text, "garment design");
+    const bool stated = root.is_object() && root.contains("format") && root["format"].is_string();
+    return stated ? root["format"].get<std::string>() : "";
+}
+
 /// ".obj" of ".../shirt.OBJ".
 std::string ending_of(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
@@ -186,22 +195,25 @@ bool is_mesh_file(const std::string& path) {
     return ending == ".obj" || ending == ".gltf" || ending == ".glb";
 }
 
+bool is_design_file(const std::string& path) {
+    const std::vector<std::byte> text = read_file(path);
+    if (is_garmentcode(text)) return true;
+    const std::string format = format_of(text);
+    return format == kSundress || format == kDesign;
+}
+
 std::vector<CookedGarment> cook_file(const BodyModel& model, const FabricLibrary& fabrics,
                                      const CookRequest& request, Jobs& jobs) {
     if (is_mesh_file(request.path)) return cook_mesh(model, fabrics, request, jobs);
     const std::vector<std::byte> text = read_file(request.path);
     if (is_garmentcode(text)) return one(cook_specification(model, fabrics, request, text, jobs));
-    const Json root = parse_json(text, "garment design");
-    const std::string format = root.is_object() && root.contains("format") && root["format"].is_string()
-                                   ? root["format"].get<std::string>()
-                                   : "";
-    if (format == "vfit-sundress")
-        return one({cook_sundress(model, parse_sundress(text)), {}, {}, {}, {}, {}});
-    if (format == "vfit-design") return one(cook_design(model, fabrics, request, text, jobs));
+    const std::string format = format_of(text);
+    if (format == kSundress) return one({cook_sundress(model, parse_sundress(text)), {}, {}, {}, {}, {}});
+    if (format == kDesign) return one(cook_design(model, fabrics, request, text, jobs));
     fail(VFIT_ERROR_UNSUPPORTED, request.path,
          " is no garment that can be cooked: neither a mesh (.obj, .gltf, .glb) nor a GarmentCode "
-         "specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-design\" or "
-         "\"vfit-sundress\")");
+         "specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"",
+         kDesign, "\" or \"", kSundress, "\")");
 }
 
 }  // namespace vfit

@@ -29,6 +29,9 @@ struct CookRequest {
 /// By its ending, whether it is a mesh.
 bool is_mesh_file(const std::string& path);
 
+/// By what is in it, whether a JSON file is a specification or a design. VFIT_ERROR_DATA where it is no JSON.
+bool is_design_file(const std::string& path);
+
 /// The garments in a file, the innermost first. VFIT_ERROR_DATA says what is wrong with it;
 /// VFIT_ERROR_UNSUPPORTED that it is none of the kinds that are known.
 std::vector<CookedGarment> cook_file(const BodyModel& model, const FabricLibrary& fabrics,

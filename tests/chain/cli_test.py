@@ -13,6 +13,7 @@ import math
 import os
 import pathlib
 import shutil
+import signal
 import socket
 import statistics
 import struct
@@ -1276,6 +1277,74 @@ class Contract(unittest.TestCase):
             self.check_failure(
                 run("fit", VIRTUAL, "--garment", folder / "design.json", "--out", folder), "design.json"
             )
+
+    def test_a_catalogue_goes_on_where_it_was_ended(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            designs, out = folder / "designs", folder / "out"
+            designs.mkdir()
+            source = pathlib.Path(__file__).resolve().parents[2] / "assets" / "garments"
+            for name in ("vest", "shirt_men", "pants_men"):
+                shutil.copy(source / f"{name}.json", designs)
+            (designs / "broken<b>.obj").write_text("v 0 0 0\nf 1 2 3\n")
+            cook = ("cook", designs, "--out", out, "--jobs", 2)
+            states = lambda report: [design["state"] for design in report["designs"]]  # noqa: E731
+            done = run(*cook, "--limit", 1, "--json")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("longer than 1 s", done.stdout)
+            self.assertIn("over_time", states(json.loads(done.stdout)))
+            done = run(*cook, "--resume", "--json")
+            report = json.loads(done.stdout)
+            self.assertEqual(states(report), ["failed", "cooked", "cooked", "cooked"])
+            self.assertIn("the face names vertex 2 of 1", report["failed"][0]["error"])
+            page = (out / "report.html").read_text()
+            self.assertIn("3 cooked, 1 failed", page)
+            self.assertIn("broken&lt;b&gt;", page)
+            for name in ("vest", "shirt_men", "pants_men"):
+                self.assertIn(f'src="pictures/{name}.png"', page)
+                width, height, _ = picture(out / "pictures" / f"{name}.png")
+                self.assertGreater(min(width, height), 200)
+
+            def stamps():
+                return {path.name: path.stat().st_mtime_ns for path in out.glob("*[nt].json")}
+
+            # A kill in the midst of a line, a design that was edited, a garment file that was taken away.
+            before = stamps()
+            with (out / "designs.jsonl").open("a") as journal:
+                journal.write('{"design": "')
+            again = json.loads(run(*cook, "--resume", "--json").stdout)
+            self.assertEqual(again, report)
+            self.assertEqual(stamps(), before | {"report.json": stamps()["report.json"]})
+            text = (designs / "vest.json").read_text()
+            (designs / "vest.json").write_text(text.replace('"vest"', '"waistcoat"', 1))
+            (out / "pants_men.json").unlink()
+            again = json.loads(run(*cook, "--resume", "--json").stdout)
+            self.assertEqual(states(again), states(report))
+            after = stamps()
+            self.assertEqual(after["shirt_men.json"], before["shirt_men.json"])
+            self.assertNotEqual(after["vest.json"], before["vest.json"])
+            self.assertIn('"waistcoat"', (out / "vest.json").read_text())
+            self.assertIn("pants_men.json", after)
+            # Killed after the first design.
+            shutil.rmtree(out)
+            with subprocess.Popen(
+                [VFIT, "cook", designs, "--out", out, "--jobs", "1"],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                text=True,
+                start_new_session=True,
+            ) as process:
+                process.stdout.readline()
+                process.stdout.readline()
+                os.killpg(process.pid, signal.SIGKILL)
+            kept = (out / "pants_men.json").stat().st_mtime_ns
+            again = json.loads(run(*cook, "--resume", "--json").stdout)
+            self.assertEqual(states(again), states(report))
+            self.assertEqual((out / "pants_men.json").stat().st_mtime_ns, kept)
+            for wrong in (("--resume",), ("--jobs", 2)):
+                done = run("cook", designs / "vest.json", "--out", folder / "x.json", *wrong)
+                self.assertEqual(done.returncode, 2)
+            self.assertEqual(run(*cook, "--picture", folder / "x.png").returncode, 2)
 
     def test_patterns_of_others_are_made_on_the_body_that_they_were_drawn_for(self):
         garments = pathlib.Path(SHARED) / "data/field/garments"

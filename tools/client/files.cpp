@@ -37,4 +37,22 @@ void write_text(const std::string& path, const std::string& text) {
     if (!file.flush()) throw Failure(path + ": cannot be written");
 }
 
+void replace_text(const std::string& path, const std::string& text) {
+    std::error_code error;
+    std::filesystem::path file(path);
+    if (std::filesystem::exists(file, error)) {
+        if (!std::filesystem::is_regular_file(file, error))
+            return write_text(path, text);               // a pipe, a device
+        file = std::filesystem::canonical(file, error);  // of a link
+    }
+    const std::string part = file.string() + ".part";
+    try {
+        write_text(part, text);
+    } catch (const Failure&) {
+        throw Failure(path + ": cannot be written");
+    }
+    std::filesystem::rename(part, file, error);
+    if (error) throw Failure(path + ": cannot be written: " + error.message());
+}
+
 }  // namespace vfit::tools

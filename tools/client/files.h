@@ -9,5 +9,8 @@ std::string read_text(const std::string& path);
 /// With its parents; may exist.
 void create_folder(const std::string& path);
 void write_text(const std::string& path, const std::string& text);
+/// The same, whole or not at all: a program that reads it meanwhile, or when this one was killed, finds the
+/// old text or the new one.
+void replace_text(const std::string& path, const std::string& text);
 
 }  // namespace vfit::tools

@@ -44,9 +44,12 @@ std::vector<Garment> open_outfit(vfit_context context, const std::string& names)
 }
 
 Avatar default_wearer(vfit_context context, const std::string& names) {
-    const std::vector<Garment> garments = open_outfit(context, names);
+    return default_wearer(context, open_outfit(context, names).front().get());
+}
+
+Avatar default_wearer(vfit_context context, vfit_garment garment) {
     vfit_garment_info info = vfit_garment_info_init();
-    check(vfit_garment_describe(garments.front().get(), &info));
+    check(vfit_garment_describe(garment, &info));
     vfit_avatar_desc body = vfit_avatar_desc_init();
     body.sex = info.body_sex;
     Avatar avatar;
@@ -55,9 +58,11 @@ Avatar default_wearer(vfit_context context, const std::string& names) {
 }
 
 WornOutfit::WornOutfit(vfit_context context, vfit_avatar avatar, const std::string& names,
-                       const vfit_cloth_desc& desc) {
-    std::vector<Garment> garments = open_outfit(context, names);
-    const std::vector<std::string> called = split(names, '+');
+                       const vfit_cloth_desc& desc)
+    : WornOutfit(avatar, open_outfit(context, names), split(names, '+'), desc) {}
+
+WornOutfit::WornOutfit(vfit_avatar avatar, std::vector<Garment> garments,
+                       const std::vector<std::string>& called, const vfit_cloth_desc& desc) {
     for (size_t i = 0; i < garments.size(); ++i) {
         Layer layer;
         layer.name = called[i];

@@ -35,6 +35,10 @@ public:
     WornOutfit(vfit_context context, vfit_avatar avatar, const std::string& names,
                const vfit_cloth_desc& desc);
 
+    /// The same with garments that are there, called so.
+    WornOutfit(vfit_avatar avatar, std::vector<Garment> garments, const std::vector<std::string>& called,
+               const vfit_cloth_desc& desc);
+
     const std::vector<Layer>& layers() const { return layers_; }
     std::vector<vfit_cloth> cloths() const;
 
@@ -76,6 +80,7 @@ std::vector<Garment> open_outfit(vfit_context context, const std::string& names)
 
 /// The default body of the sex that the first garment of "A+B" is made for.
 Avatar default_wearer(vfit_context context, const std::string& names);
+Avatar default_wearer(vfit_context context, vfit_garment garment);
 
 /// Splits "a+b" at `separator`.
 std::vector<std::string> split(const std::string& text, char separator);

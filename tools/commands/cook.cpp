@@ -1,19 +1,22 @@
 // vfit cook: makes garment files from their designs, offline.
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <set>
+#include <optional>
 
 #include "body/body_model.h"
+#include "client/assets.h"
 #include "client/files.h"
 #include "client/output.h"
 #include "client/shape_option.h"
+#include "commands/catalogue.h"
 #include "commands/commands.h"
 #include "cook/cook_file.h"
 #include "cook/garment_writer.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/platform.h"
+#include "picture/contact_sheet.h"
+#include "picture/dressed_picture.h"
 
 namespace vfit::tools {
 
@@ -21,9 +24,10 @@ namespace {
 
 struct Options {
     std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit, size_label, measures, shape,
-        stand, remake;
+        stand, remake, picture;
     float triangle_mm = 20.0f, scale = 0.0f;
-    bool json = false;
+    int jobs = 0, limit_s = 300;
+    bool json = false, resume = false;
 };
 
 /// A file of data beside the program: of a build, or of an installation with its own name for lib.
@@ -112,7 +116,7 @@ public:
             std::filesystem::path file(out);
             if (!cooked.of_set.empty())
                 file.replace_filename(file.stem().string() + "_" + cooked.of_set + file.extension().string());
-            write_text(file.string(), write_garment(cooked.garment));
+            replace_text(file.string(), write_garment(cooked.garment));
             reports.push_back(report_of(cooked));
             reports.back()["file"] = file.string();
         }
@@ -147,77 +151,100 @@ std::string line_of(const Json& r) {
     return line;
 }
 
-/// Who makes GarmentCode specifications keeps what was simulated of them beside them.
-bool is_simulation(const std::filesystem::path& design) {
-    if (!is_mesh_file(design.string())) return false;
-    const std::string tail = "_specification";
-    for (const auto& entry : std::filesystem::directory_iterator(design.parent_path())) {
-        const std::string name = entry.path().stem().string();
-        if (entry.path().extension() == ".json" && name.size() > tail.size() &&
-            name.compare(name.size() - tail.size(), tail.size(), tail) == 0)
-            return true;
+/// As they are worn by the default body, from the front and from behind.
+void draw(const std::vector<Json>& reports, const std::string& path) {
+    constexpr PortraitStyle kStyle{280, 420, 2};
+    constexpr float kArmsOut_rad = 0.1f, kFrame_s = 1.0f / 60.0f;
+    constexpr int kFramesToRest = 40;
+    const Context context = open_context();
+    std::vector<Garment> garments;
+    std::vector<std::string> called;
+    for (const Json& report : reports) {
+        called.push_back(report["file"].get<std::string>());
+        garments.push_back(open_garment(context.get(), std::filesystem::absolute(called.back()).string()));
     }
-    return false;
+    const Avatar avatar = default_wearer(context.get(), garments.front().get());
+    stand(avatar.get(), kArmsOut_rad);
+    vfit_cloth_desc cloth = vfit_cloth_desc_init();
+    cloth.flags = VFIT_CLOTH_SKIN;
+    cloth.self_thickness_m = kOwnLayers_m;
+    WornOutfit outfit(avatar.get(), std::move(garments), called, cloth);
+    for (int frame = 0; frame < kFramesToRest; ++frame) outfit.step(kFrame_s);
+    const auto meshes = dressed_meshes(avatar.get(), drawn(outfit));
+    std::vector<SheetItem> row;
+    for (const float yaw : {0.35f, 3.5f})
+        row.push_back({draw_dressed(meshes, centre_of(meshes[0]), yaw, kStyle), ""});
+    contact_sheet(std::filesystem::path(path).stem().string(), {row}, kStyle.height).write_png(path);
 }
 
-void cook(const Options& options) {
-    Cook kitchen(options);
-    if (!std::filesystem::is_directory(options.design)) {
-        const std::vector<Json> reports = kitchen.cook(options.design, options.out);
-        if (!options.json)
-            for (const Json& report : reports) std::cout << line_of(report) << "\n";
-        else if (reports.size() == 1)
-            print_document(reports[0]);
-        else
-            print_document({{"garments", reports}});
-        return;
-    }
-    // A catalogue: every design below the folder; one that fails does not stop the others.
-    std::vector<std::filesystem::path> designs;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(options.design))
-        if (entry.is_regular_file() &&
-            (entry.path().extension() == ".json" || is_mesh_file(entry.path().string())))
-            designs.push_back(entry.path());
-    std::sort(designs.begin(), designs.end());
-    if (designs.empty())
-        throw Failure("there is no design (*.json) and no mesh (*.obj, *.gltf, *.glb) in " + options.design);
-    create_folder(options.out);
-    Json cooked = Json::array(), failed = Json::array(), left_out = Json::array();
-    std::set<std::string> names;
-    for (const auto& design : designs) {
-        if (is_simulation(design)) {
-            left_out.push_back(design.string());
-            continue;
-        }
-        std::string name = design.stem().string();
-        if (!names.insert(name).second) {
-            const std::string first = name = design.parent_path().filename().string() + "_" + name;
-            for (int i = 2; !names.insert(name).second; ++i) name = vfit::text(first, "_", i);
-        }
+/// The options that are said of every design.
+std::vector<std::string> said_of_all(const Options& o) {
+    std::vector<std::string> words;
+    for (const auto& [option, value] : {std::pair("--body", &o.body),
+                                        {"--fabrics", &o.fabrics},
+                                        {"--kind", &o.kind},
+                                        {"--size-chart", &o.size_chart},
+                                        {"--fabric", &o.fabric},
+                                        {"--sex", &o.sex},
+                                        {"--unit", &o.unit},
+                                        {"--size-label", &o.size_label},
+                                        {"--measures", &o.measures},
+                                        {"--shape", &o.shape},
+                                        {"--stand", &o.stand},
+                                        {"--remake", &o.remake}})
+        if (!value->empty()) words.insert(words.end(), {option, *value});
+    words.insert(words.end(), {"--triangle", text(o.triangle_mm)});
+    if (o.scale != 0.0f) words.insert(words.end(), {"--scale", text(o.scale)});
+    return words;
+}
+
+void cook_all(const Options& options) {
+    if (!options.picture.empty()) throw WrongUsage("--picture is of one design; of a folder each has one");
+    CatalogueOptions catalogue;
+    catalogue.folder = options.design, catalogue.out = options.out;
+    catalogue.cook = said_of_all(options);
+    catalogue.is_mesh = is_mesh_file;
+    catalogue.is_design = [](const std::string& path) {
         try {
-            for (const Json& report : kitchen.cook(
-                     design.string(), (std::filesystem::path(options.out) / (name + ".json")).string())) {
-                cooked.push_back(report);
-                if (!options.json) std::cout << line_of(report) << std::endl;
-            }
-        } catch (const Error& error) {
-            if (error.code() == VFIT_ERROR_UNSUPPORTED)
-                left_out.push_back(design.string());
-            else
-                failed.push_back({{"design", design.string()}, {"error", error.what()}});
-            if (!options.json) std::cout << design.string() << ": " << error.what() << std::endl;
+            return is_design_file(path);
+        } catch (const Error&) {
+            return true;  // cooking it tells what is wrong
         }
-    }
-    const Json report = {{"cooked", cooked}, {"failed", failed}, {"left_out", left_out}};
-    write_text((std::filesystem::path(options.out) / "report.json").string(), document_text(report));
+    };
+    catalogue.jobs = options.jobs > 0 ? options.jobs : int(physical_cores());
+    catalogue.limit_s = double(options.limit_s);
+    catalogue.resume = options.resume;
+    const Json report = cook_catalogue(catalogue, [&](const Json& design) {
+        if (options.json) return;
+        if (design["state"] == "cooked")
+            for (const Json& garment : design["garments"]) std::cout << line_of(garment) << std::endl;
+        else
+            std::cout << design["design"].get<std::string>() << ": " << design["error"].get<std::string>()
+                      << std::endl;
+    });
+    const size_t cooked = report["cooked"].size(), failed = report["failed"].size();
     if (options.json)
         print_document(report);
     else
-        std::cout << cooked.size() << " cooked, " << failed.size() << " failed, " << left_out.size()
-                  << " no designs; report.json beside them\n";
-    if (!failed.empty())
-        throw Failure(vfit::text(failed.size(), " of ", cooked.size() + failed.size(),
-                                 " designs could not be cooked: see report.json in ", options.out));
+        std::cout << cooked << " cooked, " << failed << " failed, " << report["left_out"].size()
+                  << " no designs; report.html and report.json beside them\n";
+    if (failed > 0)
+        throw Failure(text(failed, " of ", report["designs"].size() - report["left_out"].size(),
+                           " designs could not be cooked: see report.html in ", options.out));
+}
+
+void cook(const Options& options) {
+    if (std::filesystem::is_directory(options.design)) return cook_all(options);
+    if (options.resume || options.jobs > 0)
+        throw WrongUsage("--jobs and --resume are of a folder of designs");
+    const std::vector<Json> reports = Cook(options).cook(options.design, options.out);
+    if (!options.picture.empty()) draw(reports, options.picture);
+    if (!options.json)
+        for (const Json& report : reports) std::cout << line_of(report) << "\n";
+    else if (reports.size() == 1)
+        print_document(reports[0]);
+    else
+        print_document({{"garments", reports}});
 }
 
 }  // namespace
@@ -275,6 +302,14 @@ void add_cook(Command& app) {
         .one_of({"never", "always"});
     command.add_option("--triangle", o->triangle_mm, "Side of a triangle of a pattern in mm (default 20)")
         .within(5, 100);
+    command.add_option("--picture", o->picture, "Picture (PNG) of the garment on its body to write");
+    command
+        .add_option("--jobs", o->jobs, "Of a folder: designs at once (default: as many as there are cores)")
+        .within(1, 256);
+    command.add_flag("--resume", o->resume,
+                     "Of a folder: what was cooked into --out before, in the same way, is not cooked again");
+    command.add_option("--limit", o->limit_s, "Of a folder: seconds for each design (default 300)")
+        .within(1, 86400);
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { cook(*o); });
 }
