@@ -1145,6 +1145,7 @@ typedef struct vfit_cloth_desc {
 } vfit_cloth_desc;
 typedef struct vfit_cloth_stats {
     uint32_t struct_size, vertex_count, simulated_count, constraint_count;
+    /* Of edges: 1 is twice the rest length; of edges below 2 cm strain_max is a fraction of 2 cm. */
     float strain_mean, strain_p99, strain_max, step_ms;
     uint32_t substeps;       /* of the last step; 0: it slept */
     uint32_t collider_count; /* spheres and capsules that it met */
@@ -1253,9 +1254,10 @@ VFIT_API vfit_result vfit_cloth_remove_prop(vfit_cloth cloth, vfit_prop prop);
  * and size. [read] */
 VFIT_API vfit_result vfit_cloth_hide_skin(vfit_cloth cloth, float margin_m, uint8_t* triangles,
                                           uint32_t count);
-/* How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that which the size is
- * made for than to another size's; of a garment that tells of none: it closes by less than 3 % of stretch and
- * has less than 12 cm of ease. */
+/* How a garment sits at one girth of the trunk. TIGHT: the body's girth is nearer to the girth of the next
+ * larger size, and less than 5 cm of ease are left, or it presses with over 2 kPa; LOOSE: nearer to the girth
+ * of the next smaller size, with over 5 cm of ease. Of a garment that tells of no such girth, TIGHT:
+ * stretched by over 3 %; LOOSE: over 12 cm of ease. */
 typedef int32_t vfit_fit;
 enum { VFIT_FIT_RIGHT = 0, VFIT_FIT_TIGHT = 1, VFIT_FIT_LOOSE = 2 };
 typedef struct vfit_fit_zone {

@@ -902,9 +902,13 @@ ClothStats Cloth::stats(size_t piece) const {
     constexpr int kBins = 2000, kZero = 1000;
     std::array<uint32_t, kBins> histogram{};
     double sum = 0.0;
-    for (float strain : strains) {
+    for (size_t i = 0; i < strains.size(); ++i) {
+        const float strain = strains[i];
         sum += std::abs(strain);
-        out.strain_max = std::max(out.strain_max, strain);
+        // A side of a millimetre that is two long is no tear: contact a thickness away moves it by more.
+        constexpr float kShortest_m = 0.02f;
+        const float inverse_rest = s.inverse_rest[size_t(strains.data() - s.edge_strains.data()) + i];
+        out.strain_max = std::max(out.strain_max, strain / std::max(kShortest_m * inverse_rest, 1.0f));
         const float bin = std::floor(strain / kBin) + kZero;
         ++histogram[bin > 0.0f ? size_t(std::min(bin, float(kBins - 1))) : 0];
     }

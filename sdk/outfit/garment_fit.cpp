@@ -245,6 +245,8 @@ Fit judge_fit(const Garment& garment, const std::string& label, const GirthFit& 
         girths.push_back(girth_of(size));
         if (size.label == label) own = girths.back();
     }
+    constexpr float kPresses_pa = 2000.0f;  // where tightness is 1 (tightness_of)
+    if (fit.pressure_pa > kPresses_pa) return Fit::tight;
     if (own <= 0.0f) {
         constexpr float kTight = 0.03f, kLoose_m = 0.12f;
         if (fit.opening_m == 0.0f && (fit.strain > kTight || fit.ease_m < -kTight * fit.body_m))
@@ -261,8 +263,11 @@ Fit judge_fit(const Garment& garment, const std::string& label, const GirthFit& 
     constexpr float kStep_m = 0.08f;  // from letter to letter (EN 13402-3)
     const float down = smaller > 0.0f ? own - smaller : larger > 0.0f ? larger - own : kStep_m;
     const float up = larger > 0.0f ? larger - own : down;
-    if (fit.body_m > own + 0.5f * up) return Fit::tight;
-    return fit.body_m < own - 0.5f * down ? Fit::loose : Fit::right;
+    // A coat of the next smaller size that leaves 20 cm is not tight, and leggings of the next larger one
+    // that are stretched are not loose.
+    constexpr float kWearing_m = 0.05f;  // of a girth, which breathing and sitting take
+    if (fit.body_m > own + 0.5f * up && fit.ease_m < kWearing_m) return Fit::tight;
+    return fit.body_m < own - 0.5f * down && fit.ease_m > kWearing_m ? Fit::loose : Fit::right;
 }
 
 float needed_strain(std::span<const GirthFit> fits, const GirthFit** at) {

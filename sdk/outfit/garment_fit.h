@@ -44,8 +44,9 @@ struct GirthFit {
 std::vector<GirthFit> fit_of(const UnposedGarment& garment, std::span<const GirthLevel> levels);
 
 enum class Fit { right, tight, loose };
-/// Right: the body's girth is nearer to that of the size than to that of the next smaller or larger size. For
-/// an empty label, and a garment without nominal girths: by strain and ease.
+/// Tight: the body's girth is nearer to that of the next larger size and less than 5 cm of ease are left, or
+/// it presses; loose: nearer to that of the next smaller size, with more ease. For an empty label, and a
+/// garment without nominal girths: by strain and ease.
 Fit judge_fit(const Garment& garment, const std::string& label, const GirthFit& fit);
 
 /// The maximum, over the levels at which the garment is closed, of the strain with which it goes around the

@@ -129,11 +129,29 @@ TEST(FitParts, VerdictsGoByTheGirthsOfTheSizes) {
         fit.body_m = body;
         return judge_fit(g, label, fit);
     };
+    const auto with_ease = [&](const char* label, float body, float ease_m) {
+        fit.ease_m = ease_m;
+        return verdict(label, body);
+    };
+    // What has much ease is not tight, what has none is not loose.
+    EXPECT_EQ(with_ease("M", 1.0f, 0.02f), Fit::tight);
+    EXPECT_EQ(with_ease("M", 1.0f, 0.184f), Fit::right);
+    EXPECT_EQ(with_ease("M", 0.89f, 0.11f), Fit::loose);
+    EXPECT_EQ(with_ease("M", 0.89f, -0.02f), Fit::right);
+    EXPECT_EQ(with_ease("M", 0.91f, 0.09f), Fit::right);
+    fit.pressure_pa = 3000.0f;
+    EXPECT_EQ(with_ease("M", 0.94f, 0.0f), Fit::tight);
+    fit.pressure_pa = 500.0f;
+    EXPECT_EQ(with_ease("M", 0.94f, 0.0f), Fit::right);
+    // By the size: half a step to the next one.
+    fit.ease_m = 0.0f;
     EXPECT_EQ(verdict("M", 0.91f), Fit::right);
     EXPECT_EQ(verdict("M", 0.985f), Fit::right);
     EXPECT_EQ(verdict("M", 1.0f), Fit::tight);
-    EXPECT_EQ(verdict("M", 0.89f), Fit::loose);
     EXPECT_EQ(verdict("L", 1.2f), Fit::tight);
+    fit.ease_m = 0.06f;
+    EXPECT_EQ(verdict("M", 0.905f), Fit::right);
+    EXPECT_EQ(verdict("M", 0.895f), Fit::loose);
     // Of a garment that tells of no such girth: by stretch and ease.
     fit.key = "hip_girth_m", fit.ease_m = 0.05f, fit.strain = 0.0f;
     EXPECT_EQ(verdict("M", 1.0f), Fit::right);

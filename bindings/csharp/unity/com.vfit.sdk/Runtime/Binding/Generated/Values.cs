@@ -424,9 +424,10 @@ namespace Vfit
         Mesh = 3,
     }
 
-    /// <summary>How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that
-    /// which the size is made for than to another size's; of a garment that tells of none: it closes by
-    /// less than 3 % of stretch and has less than 12 cm of ease.</summary>
+    /// <summary>How a garment sits at one girth of the trunk. TIGHT: the body's girth is nearer to the
+    /// girth of the next larger size, and less than 5 cm of ease are left, or it presses with over 2 kPa;
+    /// LOOSE: nearer to the girth of the next smaller size, with over 5 cm of ease. Of a garment that
+    /// tells of no such girth, TIGHT: stretched by over 3 %; LOOSE: over 12 cm of ease.</summary>
     public enum Fit : int
     {
         Right = 0,
@@ -1362,8 +1363,14 @@ namespace Vfit
     public unsafe partial struct ClothStats
     {
         internal uint StructSize;
+        /// <summary>Of edges: 1 is twice the rest length; of edges below 2 cm strain_max is a fraction of 2
+        /// cm.</summary>
         public uint VertexCount;
+        /// <summary>Of edges: 1 is twice the rest length; of edges below 2 cm strain_max is a fraction of 2
+        /// cm.</summary>
         public uint SimulatedCount;
+        /// <summary>Of edges: 1 is twice the rest length; of edges below 2 cm strain_max is a fraction of 2
+        /// cm.</summary>
         public uint ConstraintCount;
         public float StrainMean;
         public float StrainP99;
