@@ -14,6 +14,7 @@
 #include "cook/model/caps.h"
 #include "cook/model/draw.h"
 #include "cook/model/envelope.h"
+#include "cook/model/even_triangles.h"
 #include "cook/model/pieces.h"
 #include "cook/model/skeleton_probe.h"
 #include "cook/model/surface.h"
@@ -94,6 +95,10 @@ std::string kind_of(const WornPiece& worn, const Surface& surface, const Alignme
     return sleeve_m < kSleeve_m ? "vest" : sleeve_m < 1.2f * upper_arm_m ? "short_sleeves" : "long_sleeves";
 }
 
+/// What is simulated: the mesh, the same sheets with even triangles, or a sheet along its outer side. What is
+/// not the mesh itself carries it, and it is drawn.
+enum class Way { as_modelled, even, anew };
+
 class ModelCook {
 public:
     ModelCook(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics,
@@ -106,24 +111,12 @@ public:
           soup_(make_soup(model,
                           plausible_unit(model, options.alignment.unit_m, options.alignment.unit_told))) {}
 
-    /// anew: what is simulated is a surface of its own, and what was modelled is drawn. opened: ends that are
-    /// closed by cloth are cut open. as_they_are: however small triangles are.
-    std::vector<CookedGarment> run(bool anew, bool opened, bool as_they_are) {
-        anew_ = anew;
-        if (anew)
-            bring_to_body(opened, [&](const Soup& soup) {
-                // In a unit that is too large the sheet would have millions of triangles: coarser ones tell
-                // the size.
-                constexpr float kMostArea_m2 = 6.0f;
-                float area_m2 = 0.0f;
-                for (const ModelTriangle& t : soup.triangles) area_m2 += area_of(soup.places, t);
-                envelope_ = envelope_of(soup, kSide_m * std::max(1.0f, std::sqrt(area_m2 / kMostArea_m2)));
-                return make_pieces(soup_of_joined(envelope_, soup.unit_m));
-            });
-        else
-            bring_to_body(opened, [&](const Soup& soup) { return make_pieces(soup); });
+    /// opened: ends that are closed by cloth are cut open. as_they_are: however small triangles are.
+    std::vector<CookedGarment> run(Way way, bool opened, bool as_they_are) {
+        way_ = way;
+        bring_to_body(opened);
         stage_ = 2;
-        return cook_pieces(anew || as_they_are);
+        return cook_pieces(way != Way::as_modelled || as_they_are);
     }
     /// How far it came: to a surface (1), to the body (2).
     int stage() const { return stage_; }
@@ -131,9 +124,21 @@ public:
 private:
     static constexpr float kSide_m = 0.02f;
 
+    Pieces pieces_of(const Soup& soup) {
+        if (way_ == Way::as_modelled) return make_pieces(soup);
+        // In a unit that is too large there would be millions of triangles: coarser ones tell the size.
+        constexpr float kMostArea_m2 = 6.0f;
+        float area_m2 = 0.0f;
+        for (const ModelTriangle& t : soup.triangles) area_m2 += area_of(soup.places, t);
+        const float side_m = kSide_m * std::max(1.0f, std::sqrt(area_m2 / kMostArea_m2));
+        simulated_ =
+            way_ == Way::anew ? envelope_of(soup, side_m) : with_even_triangles(make_pieces(soup), side_m);
+        return make_pieces(soup_of_joined(simulated_, soup.unit_m));
+    }
+
     /// With all ends open that may be closed by cloth; then without what was in the way alone, and in the
     /// size that was found.
-    void bring_to_body(bool opened, const std::function<Pieces(const Soup&)>& pieces_of) {
+    void bring_to_body(bool opened) {
         std::vector<std::vector<uint32_t>> caps;
         if (opened && (caps = find_caps(soup_)).empty()) fail(VFIT_ERROR_DATA, "no end is closed by cloth");
         pieces_ = pieces_of(without(soup_, caps));
@@ -153,7 +158,7 @@ private:
         const bool is_same = scale < kSame && scale > 1.0f / kSame;
         const Soup open = without(soup_, caps);
         soup_ = without(soup_, in_the_way);
-        if (in_the_way.size() < caps.size() || (anew_ && !is_same)) {
+        if (in_the_way.size() < caps.size() || (way_ != Way::as_modelled && !is_same)) {
             const size_t noted = notes_.size();
             try {
                 pieces_ = pieces_of(soup_);
@@ -205,9 +210,9 @@ private:
             }
             out.push_back(std::move(cooked));
         }
-        if (anew_ || has_trims_) draw_as_modelled(out);
+        if (way_ != Way::as_modelled || has_trims_) draw_as_modelled(out);
         std::vector<std::string>& notes = out.front().notes;
-        const std::vector<std::string>& read = anew_ ? soup_.notes : pieces_.notes;
+        const std::vector<std::string>& read = way_ == Way::as_modelled ? pieces_.notes : soup_.notes;
         notes_.insert(notes_.begin(), read.begin(), read.end());
         notes_.insert(notes_.begin(), model_.notes.begin(), model_.notes.end());
         notes.insert(notes.begin(), notes_.begin(), notes_.end());
@@ -255,9 +260,9 @@ private:
                 continue;
             }
             if (const WornPiece* other = shell_of(piece, parted, out)) refuse_shell(piece, *other->piece);
-            if (anew_ && parted.round_nothing()) continue;  // a part of it that stands off
+            if (way_ == Way::anew && parted.round_nothing()) continue;  // a part of it that stands off
             for (const WornPiece& other : out)
-                if (!anew_ && goes_on_in(piece, *other.piece)) refuse_part(piece, *other.piece);
+                if (way_ != Way::anew && goes_on_in(piece, *other.piece)) refuse_part(piece, *other.piece);
             if (parted.round_nothing() && !out.empty()) refuse_part(piece, *out.front().piece);
             out.push_back({&piece, parted, off_skin(piece)});
         }
@@ -328,7 +333,7 @@ private:
     /// as_they_are: else VFIT_ERROR_DATA where triangles are too small to be simulated well.
     CookedGarment cook(const WornPiece& worn, bool as_they_are) {
         const Stopwatch watch;
-        Surface surface = make_surface(pieces_, *worn.piece, anew_ ? kAnewHole_m : kHole_m);
+        Surface surface = make_surface(pieces_, *worn.piece, way_ == Way::anew ? kAnewHole_m : kHole_m);
         const FabricMaterial material = fabrics_.get(options_.cook.fabric);
         const MeshQuery& skin = body_.skin();
         const float thickness = options_.cook.drape.thickness_m;
@@ -383,21 +388,25 @@ private:
         turn_outside_out(g, skin);
         validate_garment(g, fabrics_);
         out.round = goes_round(g.mesh.positions, g.mesh.indices, body_);
-        if (worn.parted.over_shoulder()) out.round.push_back("shoulders");
+        // What parts the head from the legs goes round the trunk, as a bra does whose band lies aslant.
+        const auto is_round = [&](const char* name) {
+            return std::find(out.round.begin(), out.round.end(), name) != out.round.end();
+        };
+        if (worn.parted.legs_from_head() && !is_round("chest") && !is_round("waist") && !is_round("hips"))
+            out.round.emplace_back(worn.parted.over_shoulder() ? "chest" : "hips");
         check_still_on(worn, g, surface);
-        if (std::find(g.simulated.begin(), g.simulated.end(), 0) == g.simulated.end())
-            fail(VFIT_ERROR_DATA,
-                 "the garment slides off the shoulders of this body: no part of it lies on them when it has "
-                 "fallen");
+        if (out.report.hangs_on == HangsOn::shoulders) check_on_shoulders(hold, g);
         check_shape(out.report, g.mesh.positions);
         check_free(out.report, surface.indices.size() / 3);
         check_worn(out.round, options_.cook.kind_told ? options_.cook.kind : "");
+        if (worn.parted.over_shoulder()) out.round.push_back("shoulders");
         out.notes = surface.notes;
-        if (anew_)
-            out.notes.push_back(text("what is simulated was made anew along its outer side, with ",
-                                     g.mesh.indices.size() / 3,
-                                     " triangles; what was modelled is drawn and "
-                                     "goes with it"));
+        if (way_ != Way::as_modelled)
+            out.notes.push_back(text(way_ == Way::anew
+                                         ? "what is simulated was made anew along its outer side, with "
+                                         : "it is simulated with even triangles, ",
+                                     g.mesh.indices.size() / 3, way_ == Way::anew ? " triangles" : " of them",
+                                     "; what was modelled is drawn and goes with it"));
         add_notes(cloth, thickness, inside, draped, out.notes);
         for (const auto& opening : surface.openings) out.openings_m.push_back(surface.length_of(opening));
         out.report.seconds = watch.ms() / 1000.0;
@@ -421,6 +430,20 @@ private:
                 fail(VFIT_ERROR_DATA, "the garment comes off: when it had fallen, the ", kEnds[a],
                      " was no longer in it as when it was put on");
             }
+    }
+
+    /// Where it lay on both shoulders it still does.
+    static void check_on_shoulders(const Hold& hold, const Garment& g) {
+        constexpr float kStill = 0.15f;  // of what lay there
+        std::array<size_t, 2> lay{}, lies{};
+        for (size_t v = 0; v < g.simulated.size(); ++v) {
+            const size_t side = g.mesh.positions[v].x > 0.0f;
+            lay[side] += hold.of[v], lies[side] += !g.simulated[v];
+        }
+        for (size_t side = 0; side < 2; ++side)
+            if (float(lies[side]) < kStill * float(lay[side]) || lies[0] + lies[1] == 0)
+                fail(VFIT_ERROR_DATA, "the garment slides off the ", side ? "left" : "right",
+                     " shoulder of this body: nearly nothing of it lies there when it has fallen");
     }
 
     /// What is stretched to rags, or lies about the feet, was not made for a body as it was put on.
@@ -522,8 +545,9 @@ private:
     Jobs& jobs_;
     const CookBody body_;
     Soup soup_;
-    Model envelope_;
-    bool anew_ = false, has_trims_ = false;
+    Model simulated_;  // where it is not the mesh itself
+    Way way_ = Way::as_modelled;
+    bool has_trims_ = false;
     int stage_ = 0;
     Pieces pieces_;
     Alignment alignment_;
@@ -536,16 +560,16 @@ private:
 std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& model,
                                       const FabricLibrary& fabrics, const ModelOptions& options, Jobs& jobs) {
     check_no_strays(model);
-    // As it was modelled, or with its ends opened, or made anew: the first that is worn without a crossing,
-    // else the one with the fewest.
+    // Each way as it was modelled, then with its ends opened: the first that is worn without a crossing, else
+    // the one with the fewest.
     std::vector<CookedGarment> best;
     std::exception_ptr fault;
     int stage = -1;  // of the fault: what is told is of the way that came furthest
-    const auto try_out = [&](bool anew, bool opened) {
+    const auto try_out = [&](Way way, bool opened) {
         if (!best.empty() && crossings_of(best) == 0) return;
         ModelCook cook(body_model, model, fabrics, options, jobs);
         try {
-            std::vector<CookedGarment> cooked = cook.run(anew, opened, options.remake == Remake::never);
+            std::vector<CookedGarment> cooked = cook.run(way, opened, options.remake == Remake::never);
             if (best.empty() || crossings_of(cooked) < crossings_of(best)) best = std::move(cooked);
         } catch (const Error&) {
             if (cook.stage() <= stage) return;
@@ -554,9 +578,11 @@ std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& 
         }
     };
     if (options.remake != Remake::always)
-        for (const bool opened : {false, true}) try_out(false, opened);
+        for (const bool opened : {false, true}) try_out(Way::as_modelled, opened);
+    if (options.remake == Remake::where_needed)
+        for (const bool opened : {false, true}) try_out(Way::even, opened);
     if (options.remake != Remake::never)
-        for (const bool opened : {false, true}) try_out(true, opened);
+        for (const bool opened : {false, true}) try_out(Way::anew, opened);
     if (best.empty()) std::rethrow_exception(fault);
     return best;
 }

@@ -51,9 +51,10 @@ std::vector<std::string> goes_round(std::span<const Vec3> places, std::span<cons
     std::vector<std::string> out;
     const TailorLevels& levels = body.outline().levels();
     const Vec3 up(0, 1, 0);
-    const auto add = [&](const char* name, const Vec3& centre, const Vec3& along, float reach_m) {
-        // A waistband's edge lies at the waist, or a little below.
-        for (const float off_m : {0.0f, -0.03f})
+    const auto add = [&](const char* name, const Vec3& centre, const Vec3& along, float reach_m,
+                         float low_m = -0.03f, float high_m = 0.0f) {
+        constexpr float kStep_m = 0.015f;
+        for (float off_m = high_m; off_m > low_m - 0.5f * kStep_m; off_m -= kStep_m)
             if (share_met(places, indices, centre + off_m * along, along, reach_m) >= kMet) {
                 out.push_back(name);
                 return;
@@ -61,9 +62,13 @@ std::vector<std::string> goes_round(std::span<const Vec3> places, std::span<cons
     };
     constexpr float kFar_m = 2.0f, kNeck_m = 0.25f;
     add("neck", body.joint(VFIT_BONE_NECK), up, kNeck_m);
-    for (const auto& [name, y] :
-         {std::pair("chest", levels.bust), std::pair("waist", levels.waist), std::pair("hips", levels.hip)})
-        add(name, {0.0f, y, body.outline().axis_z()}, up, kFar_m);
+    // Somewhere along each: a bra's band lies below the bust, a brief's legs are cut up to the hips, and a
+    // waistband's edge lies at the waist or a little below.
+    const float axis_z = body.outline().axis_z();
+    constexpr float kBelowBust_m = 0.1f, kBelowHips_m = 0.05f;
+    add("chest", {0.0f, levels.bust, axis_z}, up, kFar_m, -kBelowBust_m);
+    add("waist", {0.0f, levels.waist, axis_z}, up, kFar_m);
+    add("hips", {0.0f, levels.hip, axis_z}, up, kFar_m, -kBelowHips_m, 0.5f * (levels.waist - levels.hip));
     for (const auto& [name, from, to] :
          {std::tuple("left leg", VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG),
           std::tuple("right leg", VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG),

@@ -33,8 +33,10 @@ public:
         look("fallen", places);
 
         out.simulated.assign(places.size(), 1);
-        for (uint32_t v = 0; v < places.size(); ++v)
-            if (has_band ? hold.of[v] != 0 : lies_on_shoulder(places[v])) out.simulated[v] = 0;
+        if (has_band)
+            for (uint32_t v = 0; v < places.size(); ++v) out.simulated[v] = !hold.of[v];
+        else
+            for (const uint32_t v : on_shoulders(places)) out.simulated[v] = 0;
         out.report.strain_p99 =
             fall(cook(places, out.simulated), places, places, {120, 0, 0.0f, kHeldSubsteps, true});
         part_layers(places);
@@ -129,13 +131,33 @@ private:
         if (left >= first) places = before;
     }
 
-    bool lies_on_shoulder(const Vec3& place) const {
-        constexpr float kTouches_m = 0.006f, kUpwards = 0.75f, kNeck_m = 0.03f, kBelowJoint_m = 0.02f;
+    /// What carries a garment: on each side, the cloth that touches the shoulder, and where that is little,
+    /// as below a wide collar, what is closest to it.
+    std::vector<uint32_t> on_shoulders(const std::vector<Vec3>& places) const {
+        constexpr float kTouches_m = 0.006f, kMost_m = 0.05f, kShare = 0.33f;
+        constexpr size_t kFewest = 4;
+        std::vector<uint32_t> out;
+        for (const float side : {1.0f, -1.0f}) {
+            std::vector<std::pair<float, uint32_t>> above;  // with the distance from the skin
+            for (uint32_t v = 0; v < places.size(); ++v)
+                if (const float off = above_shoulder(places[v] * Vec3(side, 1.0f, 1.0f), side); off < kMost_m)
+                    above.emplace_back(off, v);
+            std::sort(above.begin(), above.end());
+            for (size_t i = 0; i < above.size(); ++i)
+                if (above[i].first < settings_.thickness_m + kTouches_m ||
+                    float(i) < kShare * float(above.size()) || i < kFewest)
+                    out.push_back(above[i].second);
+        }
+        return out;
+    }
+
+    /// How far it is from a shoulder below it; INFINITY where there is none.
+    float above_shoulder(const Vec3& place, float side) const {
+        constexpr float kUpwards = 0.75f, kNeck_m = 0.03f, kBelowJoint_m = 0.02f;
         const Vec3 joint = body_.outline().left_shoulder();
-        if (std::abs(place.x) < kNeck_m || std::abs(place.x) > joint.x || place.y < joint.y - kBelowJoint_m)
-            return false;
-        const MeshQuery::Closest skin = body_.skin().closest(place);
-        return skin.distance < settings_.thickness_m + kTouches_m && skin.normal.y > kUpwards;
+        if (place.x < kNeck_m || place.x > joint.x || place.y < joint.y - kBelowJoint_m) return INFINITY;
+        const MeshQuery::Closest skin = body_.skin().closest(place * Vec3(side, 1.0f, 1.0f));
+        return skin.normal.y > kUpwards ? skin.distance : INFINITY;
     }
 
     const WholeCloth& cloth_;

@@ -69,6 +69,8 @@ float middle_of(std::vector<float>& list) {
     return list[at];
 }
 
+constexpr float kNoLimb_m = 0.08f;  // around an opening: none leaves by less
+
 /// The cloth turned and scaled, before it is moved to the body.
 class Candidate {
 public:
@@ -77,7 +79,8 @@ public:
         for (Vec3& p : places_) p = turn * (scale * p);
         for (const Piece& piece : pieces.list) {
             indices_.insert(indices_.end(), piece.indices.begin(), piece.indices.end());
-            openings_.insert(openings_.end(), piece.openings.begin(), piece.openings.end());
+            for (const auto& opening : piece.openings)
+                if (length_around(places_, opening) > kNoLimb_m) openings_.push_back(opening);
             for (const uint32_t v : piece.indices) box_.add(places_[v]);
         }
         cloth_.emplace(places_, indices_);
@@ -430,7 +433,9 @@ public:
     }
 
 private:
-    static constexpr float kGood = 0.8f, kOtherScale = 0.3f, kMost = 2.0f, kNotItsKind = 10.0f;  // costs
+    // Costs.
+    static constexpr float kGood = 0.8f, kOtherScale = 0.3f, kOutOfPlace = 0.8f, kMost = 2.0f + kOutOfPlace,
+                           kNotItsKind = 10.0f;
     struct Way {
         Alignment alignment;
         SkeletonProbe::Found found;
@@ -500,6 +505,7 @@ private:
             way.cost = cost(way, !is_first || (!unit && !options_.size_known)) + 0.1f * float(w);
             if (candidate.is_too_long(way.alignment.moved, !by_waist)) way.cost += kNotItsKind;
             if (!options_.size_known && !is_stated(unit)) way.cost += kOtherScale;
+            if (!options_.size_known && !is_in_place(way.alignment.moved)) way.cost += kOutOfPlace;
             if (way.cost < kNotItsKind && (!best_ || way.cost < best_->cost)) {
                 constexpr float kEmpty = 0.2f;
                 way.empty = candidate.empty_share(way.alignment.moved, way.alignment.stance);
@@ -551,6 +557,13 @@ private:
         if (ratio < kTight) sum += kOffSize * std::log(kTight / ratio) + 1.0f;
         if (ratio > kLoose) sum += kOffSize * std::log(ratio / kLoose) + 1.0f;
         return sum + 0.2f * std::abs(std::log(ratio / kUsual));
+    }
+
+    /// Most are modelled about a figure that stands on the origin. Few come there by chance when they are
+    /// turned the wrong way.
+    static bool is_in_place(const Vec3& moved) {
+        constexpr float kBeside_m = 0.15f, kAbove_m = 0.25f;
+        return std::abs(moved.x) < kBeside_m && std::abs(moved.z) < kBeside_m && std::abs(moved.y) < kAbove_m;
     }
 
     bool is_of_kind(const Parted& parted) const {

@@ -356,15 +356,8 @@ private:
     }
 
     Model write() const {
-        Model out;
         if (triangles_.empty()) fail(VFIT_ERROR_DATA, "the mesh has no outer side that could be cloth");
-        for (const Vec3& p : places_) out.positions.push_back(p / soup_.unit_m);
-        out.groups = {"the surface that was made anew: triangle "};
-        for (const auto& t : triangles_) {
-            out.faces.push_back({uint32_t(out.corners.size()), 3, 0, 0, uint32_t(out.faces.size())});
-            for (const uint32_t v : t) out.corners.push_back({v, kNoUv});
-        }
-        return out;
+        return model_of(places_, triangles_, soup_.unit_m, "the surface that was made anew: triangle ");
     }
 
     static constexpr size_t kMaxCells = 400000;

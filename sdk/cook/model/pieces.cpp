@@ -208,7 +208,15 @@ public:
     explicit PiecesMaker(const Soup& soup) : soup_(soup), places_(soup.places), triangles_(soup.triangles) {}
 
     Pieces run() {
-        turn_alike();
+        part_sides();
+        GoesOn torn = turn_alike();
+        if (!torn.empty()) {
+            // Where its outside would become its inside, as at a lining that is joined to the cloth.
+            check_has_outside(torn);
+            part(torn);
+            notes_.push_back(text(torn.size(), " sides were parted where its outside became its inside"));
+            turn_alike();
+        }
         Pieces out{soup_.model, soup_.unit_m, places_, soup_.model->uvs, std::vector<Piece>(piece_count_),
                    soup_.notes};
         out.notes.insert(out.notes.end(), notes_.begin(), notes_.end());
@@ -228,22 +236,103 @@ public:
 private:
     std::string name_of(const ModelTriangle& t) const { return soup_.name_of(t); }
 
-    /// Neighbours run along their common side in opposite directions; pieces_ becomes the piece of each
-    /// triangle.
-    void turn_alike() {
-        std::map<Side, std::vector<uint32_t>> beside;  // by its lower and higher end; triangles
+    using Beside = std::map<Side, std::vector<uint32_t>>;  // by its lower and higher end; triangles
+    Beside beside_sides() const {
+        Beside out;
         for (uint32_t t = 0; t < triangles_.size(); ++t)
             for (uint32_t k = 0; k < 3; ++k)
-                beside[std::minmax(triangles_[t].vertex[k], triangles_[t].vertex[(k + 1) % 3])].push_back(t);
-        for (const auto& [side, list] : beside) {
-            if (list.size() < 3) continue;
-            std::string names;
-            for (size_t i = 0; i < std::min<size_t>(list.size(), 4); ++i)
-                names += (i > 0 ? ", " : "") + name_of(triangles_[list[i]]);
-            fail(VFIT_ERROR_DATA, "the side from ", shown(places_[side.first]), " to ",
-                 shown(places_[side.second]), " is of ", list.size(), " triangles (", names,
-                 "): cloth has two beside a side; part what is joined there");
+                out[std::minmax(triangles_[t].vertex[k], triangles_[t].vertex[(k + 1) % 3])].push_back(t);
+        return out;
+    }
+
+    /// Cloth has two triangles beside a side. Where there are more, as where a flap or a lining is joined to
+    /// it, the two go on that lie flattest to each other, and the others have a side of their own.
+    void part_sides() {
+        GoesOn goes_on;
+        for (const auto& [side, list] : beside_sides())
+            if (list.size() > 2) goes_on[side] = flattest(side, list);
+        if (goes_on.empty()) return;
+        part(goes_on);
+        notes_.push_back(text(goes_on.size(), " sides of more than two triangles were parted"));
+    }
+
+    /// Of a side, the two triangles over which cloth goes on, or twice the same: it ends there.
+    using GoesOn = std::map<Side, std::array<uint32_t, 2>>;
+
+    /// Triangles that hang together no more get vertices of their own.
+    void part(const GoesOn& goes_on) {
+        std::set<uint32_t> ends;
+        for (const auto& [side, pair] : goes_on) ends.insert({side.first, side.second});
+        std::vector<std::vector<uint32_t>> around(places_.size());
+        for (uint32_t t = 0; t < triangles_.size(); ++t)
+            for (const uint32_t v : triangles_[t].vertex) around[v].push_back(t);
+        std::vector<std::pair<std::array<uint32_t, 2>, uint32_t>> renamed;  // of a triangle a vertex
+        for (const uint32_t v : ends) {
+            std::vector<uint32_t> left = around[v];
+            for (bool is_first = true; !left.empty(); is_first = false) {
+                std::vector<uint32_t> fan{left.back()};  // those that hang together about the vertex
+                left.pop_back();
+                for (size_t i = 0; i < fan.size(); ++i)
+                    for (size_t k = left.size(); k-- > 0;)
+                        if (go_on(fan[i], left[k], v, goes_on))
+                            fan.push_back(left[k]), left.erase(left.begin() + long(k));
+                if (is_first) continue;
+                for (const uint32_t t : fan) renamed.push_back({{t, v}, uint32_t(places_.size())});
+                places_.push_back(places_[v]);
+            }
         }
+        for (const auto& [of, by] : renamed)
+            for (uint32_t& v : triangles_[of[0]].vertex)
+                if (v == of[1]) v = by;
+    }
+
+    std::array<uint32_t, 2> flattest(const Side& side, const std::vector<uint32_t>& list) const {
+        const Vec3 along = glm::normalize(places_[side.second] - places_[side.first]);
+        const auto wing = [&](uint32_t t) {
+            for (const uint32_t v : triangles_[t].vertex)
+                if (v != side.first && v != side.second) {
+                    const Vec3 off = places_[v] - places_[side.first];
+                    return glm::normalize(off - glm::dot(off, along) * along);
+                }
+            return Vec3(0.0f);
+        };
+        std::array<uint32_t, 2> best{list[0], list[1]};
+        float least = INFINITY;
+        for (size_t i = 0; i < list.size(); ++i)
+            for (size_t k = 0; k < i; ++k)
+                if (const float bent = glm::dot(wing(list[i]), wing(list[k])); bent < least)
+                    least = bent, best = {list[k], list[i]};
+        return best;
+    }
+
+    /// Whether they share a side at that vertex over which cloth goes on.
+    bool go_on(uint32_t a, uint32_t b, uint32_t at, const GoesOn& goes_on) const {
+        for (const uint32_t v : triangles_[a].vertex) {
+            const auto& of_b = triangles_[b].vertex;
+            if (v == at || std::find(of_b.begin(), of_b.end(), v) == of_b.end()) continue;
+            const auto many = goes_on.find(std::minmax(at, v));
+            if (many == goes_on.end()) return true;
+            const auto& pair = many->second;
+            if ((pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a)) return true;
+        }
+        return false;
+    }
+
+    void check_has_outside(const GoesOn& torn) const {
+        constexpr float kMax = 0.02f;  // of all sides
+        if (float(torn.size()) <= kMax * 1.5f * float(triangles_.size())) return;
+        const auto& [side, pair] = *torn.begin();
+        fail(VFIT_ERROR_DATA, "the cloth has no outside: around the side from ", shown(places_[side.first]),
+             " to ", shown(places_[side.second]), " (", name_of(triangles_[pair[0]]), ") and ",
+             torn.size() - 1, " others its outside becomes its inside");
+    }
+
+    /// Neighbours run along their common side in opposite directions; pieces_ becomes the piece of each
+    /// triangle. Returns the sides at which they can't.
+    GoesOn turn_alike() {
+        const Beside beside = beside_sides();
+        GoesOn torn;
+        piece_count_ = 0;
         const auto runs = [&](uint32_t t, const Side& side) {
             for (size_t k = 0; k < 3; ++k)
                 if (triangles_[t].vertex[k] == side.first && triangles_[t].vertex[(k + 1) % 3] == side.second)
@@ -262,7 +351,7 @@ private:
                 const uint32_t t = piece[i];
                 for (size_t k = 0; k < 3; ++k) {
                     const Side side = std::minmax(triangles_[t].vertex[k], triangles_[t].vertex[(k + 1) % 3]);
-                    for (const uint32_t other : beside[side]) {
+                    for (const uint32_t other : beside.at(side)) {
                         if (other == t) continue;
                         const bool wanted = turned[t] != uint8_t(runs(t, side) == runs(other, side));
                         if (pieces_[other] == UINT32_MAX) {
@@ -271,10 +360,7 @@ private:
                             turned_over += wanted;
                             piece.push_back(other);
                         } else if (bool(turned[other]) != wanted) {
-                            fail(VFIT_ERROR_DATA, "the cloth has no outside: around the side from ",
-                                 shown(places_[side.first]), " to ", shown(places_[side.second]), " (",
-                                 name_of(triangles_[t]), " and ", name_of(triangles_[other]),
-                                 ") its outside becomes its inside");
+                            torn[side] = {t, t};
                         }
                     }
                 }
@@ -285,6 +371,7 @@ private:
             mended += other_way ? piece.size() - turned_over : turned_over;
             ++piece_count_;
         }
+        if (!torn.empty()) return torn;
         for (uint32_t t = 0; t < triangles_.size(); ++t) {
             if (!turned[t]) continue;
             std::swap(triangles_[t].vertex[1], triangles_[t].vertex[2]);
@@ -293,10 +380,11 @@ private:
         if (mended > 0)
             notes_.push_back(
                 text(mended, " triangles were turned the other way round, as those beside them are"));
+        return torn;
     }
 
     const Soup& soup_;
-    const std::vector<Vec3>& places_;
+    std::vector<Vec3> places_;
     std::vector<ModelTriangle> triangles_;
     std::vector<uint32_t> pieces_;  // of each triangle
     uint32_t piece_count_ = 0;
@@ -348,6 +436,18 @@ void check_no_strays(const Model& model) {
 }
 
 Soup make_soup(const Model& model, float unit_m) { return SoupMaker(model, unit_m).run(); }
+
+Model model_of(const std::vector<Vec3>& places, const std::vector<std::array<uint32_t, 3>>& triangles,
+               float unit_m, const char* name) {
+    Model out;
+    for (const Vec3& p : places) out.positions.push_back(p / unit_m);
+    out.groups = {name};
+    for (const auto& t : triangles) {
+        out.faces.push_back({uint32_t(out.corners.size()), 3, 0, 0, uint32_t(out.faces.size())});
+        for (const uint32_t v : t) out.corners.push_back({v, kNoUv});
+    }
+    return out;
+}
 
 Soup soup_of_joined(const Model& model, float unit_m) {
     Soup out{&model, unit_m, model.positions, {}, {}};

@@ -32,6 +32,9 @@ void check_no_strays(const Model& model);
 
 /// VFIT_ERROR_DATA says what is no mesh, and where. model must outlive it.
 Soup make_soup(const Model& model, float unit_m);
+/// Triangles without uvs. name: before their number. places: in metres.
+Model model_of(const std::vector<Vec3>& places, const std::vector<std::array<uint32_t, 3>>& triangles,
+               float unit_m, const char* name);
 /// Of a model of triangles whose vertices are joined as they should be.
 Soup soup_of_joined(const Model& model, float unit_m);
 
