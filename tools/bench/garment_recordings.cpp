@@ -38,6 +38,8 @@ class WornJudge {
 public:
     WornJudge(vfit_context context, vfit_avatar avatar, const std::string& names, const vfit_cloth_desc& desc)
         : names_(names), avatar_(avatar), outfit_(context, avatar, names, desc) {}
+    WornJudge(vfit_avatar avatar, const std::string& name, Garment garment, const vfit_cloth_desc& desc)
+        : names_(name), avatar_(avatar), outfit_(avatar, one(std::move(garment)), {name}, desc) {}
 
     const std::string& names() const { return names_; }
     const Worst& worst() const { return worst_; }
@@ -91,6 +93,11 @@ public:
     }
 
 private:
+    static std::vector<Garment> one(Garment garment) {
+        std::vector<Garment> out;
+        out.push_back(std::move(garment));
+        return out;
+    }
     std::vector<uint8_t> hidden_skin(size_t triangles) const {
         std::vector<uint8_t> hidden(triangles);
         for (const vfit_cloth cloth : outfit_.cloths())
@@ -146,28 +153,53 @@ std::vector<std::filesystem::path> recordings_in(const RecordingsOptions& option
     return out;
 }
 
+std::vector<std::filesystem::path> cooked_in(const std::string& folder) {
+    std::vector<std::filesystem::path> out;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".json") out.push_back(entry.path());
+    std::sort(out.begin(), out.end());
+    if (out.empty()) throw Failure(folder + ": holds no garment files");
+    return out;
+}
+
+/// What is drawn instead of the simulated mesh has linings and hidden layers that cross each other and the
+/// skin as they were modelled: the simulated one is judged.
+Garment as_simulated(vfit_context context, const std::filesystem::path& path) {
+    Json file = Json::parse(read_text(path.string()));
+    if (file.erase("drawn") > 0) file.erase("parts");
+    const std::string bytes = file.dump();
+    Garment garment;
+    check(vfit_garment_load(context, bytes.data(), bytes.size(), garment.out()));
+    return garment;
+}
+
 /// Every garment on the person of one recording, in the order of their names.
 std::vector<std::unique_ptr<WornJudge>> judge_recording(vfit_context context,
                                                         const std::filesystem::path& path,
                                                         const RecordingsOptions& options) {
-    const std::vector<std::string> names =
-        options.garment.empty() ? garment_names(context) : std::vector<std::string>{options.garment};
+    const std::vector<std::string> names = !options.cooked.empty() ? std::vector<std::string>()
+                                           : options.garment.empty()
+                                               ? garment_names(context)
+                                               : std::vector<std::string>{options.garment};
     FittingOptions chain;
     chain.source = path.string();
-    chain.garments = names.front();
+    if (!names.empty()) chain.garments = names.front();
     chain.hands = options.hands;
     chain.substeps = uint32_t(options.substeps);
     if (options.own_tracker) chain.scan.track.joints = chain.scan.track.user_map = VFIT_TRACK_BUILT_IN;
     Fitting fitting(context, chain);
     std::vector<std::unique_ptr<WornJudge>> judges;
-    for (const std::string& name : names) {
-        vfit_cloth_desc desc = vfit_cloth_desc_init();
-        desc.flags = VFIT_CLOTH_SKIN | (options.hands ? 0u : uint32_t(VFIT_CLOTH_NO_HANDS));
-        desc.self_thickness_m = kOwnLayers_m;
-        desc.substeps = uint32_t(options.substeps);
-        desc.carry_speed_m_s = options.carry_speed_m_s, desc.carry_way_m = options.carry_way_m;
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.flags = VFIT_CLOTH_SKIN | (options.hands ? 0u : uint32_t(VFIT_CLOTH_NO_HANDS));
+    desc.self_thickness_m = kOwnLayers_m;
+    desc.substeps = uint32_t(options.substeps);
+    desc.carry_speed_m_s = options.carry_speed_m_s, desc.carry_way_m = options.carry_way_m;
+    for (const std::string& name : names)
         judges.push_back(std::make_unique<WornJudge>(context, fitting.avatar(), name, desc));
-    }
+    if (!options.cooked.empty())
+        for (const auto& file : cooked_in(options.cooked))
+            judges.push_back(std::make_unique<WornJudge>(fitting.avatar(), file.stem().string(),
+                                                         as_simulated(context, file), desc));
     std::optional<CarriedProps> carried;
     if (options.props) {
         carried.emplace(context);

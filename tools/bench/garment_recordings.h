@@ -8,6 +8,7 @@ namespace vfit::tools {
 struct RecordingsOptions {
     std::string folder;        // of recordings
     std::string garment;       // one, or an outfit "A+B"; empty: every bundled garment
+    std::string cooked;        // folder of garment files instead, each by itself; as they are simulated
     std::string recording;     // part of a name; empty: all
     std::string pictures;      // folder for a sheet of each recording; empty: none
     bool hands = true;         // push the garments, as with vfit fit --hands

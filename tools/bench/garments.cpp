@@ -466,7 +466,8 @@ void add_garments(Command& app) {
         }
         if (real->folder.empty()) return judge_garments(*o);
         real->carry_speed_m_s = jumps->carry_speed_m_s, real->carry_way_m = jumps->carry_way_m;
-        real->garment = o->garment, real->pictures = o->pictures, real->json = o->json;
+        real->garment = o->garment, real->cooked = o->folder, real->pictures = o->pictures,
+        real->json = o->json;
         judge_recordings(*real);
     });
 }
