@@ -111,14 +111,36 @@ public:
           soup_(make_soup(model,
                           plausible_unit(model, options.alignment.unit_m, options.alignment.unit_told))) {}
 
-    /// opened: ends that are closed by cloth are cut open. as_they_are: however small triangles are.
-    std::vector<CookedGarment> run(Way way, bool opened, bool as_they_are) {
-        way_ = way;
+    /// opened: ends that are closed by cloth are cut open. As it was modelled, and where it crosses or its
+    /// triangles are too small or too thin for that, with even ones.
+    std::vector<CookedGarment> run(bool opened) {
         bring_to_body(opened);
         stage_ = 2;
-        return cook_pieces(way != Way::as_modelled || as_they_are);
+        std::vector<CookedGarment> first;
+        std::exception_ptr fault;
+        try {
+            first = cook_pieces();
+            if (options_.remake == Remake::never || crossings_of(first) == 0) return first;
+        } catch (const Error&) {
+            if (stage_ < 3 || options_.remake == Remake::never) throw;
+            fault = std::current_exception();
+        }
+        try {
+            std::vector<CookedGarment> even = cook_with_even_triangles();
+            return first.empty() || crossings_of(even) < crossings_of(first) ? even : first;
+        } catch (const Error&) {
+            if (fault) std::rethrow_exception(fault);
+            return first;
+        }
     }
-    /// How far it came: to a surface (1), to the body (2).
+    /// What is simulated is a surface along its outer side.
+    std::vector<CookedGarment> run_anew(bool opened) {
+        way_ = Way::anew;
+        bring_to_body(opened);
+        stage_ = 2;
+        return cook_pieces();
+    }
+    /// How far it came: to a surface (1), to the body (2), to a garment on it (3).
     int stage() const { return stage_; }
 
 private:
@@ -130,10 +152,17 @@ private:
         constexpr float kMostArea_m2 = 6.0f;
         float area_m2 = 0.0f;
         for (const ModelTriangle& t : soup.triangles) area_m2 += area_of(soup.places, t);
-        const float side_m = kSide_m * std::max(1.0f, std::sqrt(area_m2 / kMostArea_m2));
-        simulated_ =
-            way_ == Way::anew ? envelope_of(soup, side_m) : with_even_triangles(make_pieces(soup), side_m);
+        simulated_ = envelope_of(soup, kSide_m * std::max(1.0f, std::sqrt(area_m2 / kMostArea_m2)));
         return make_pieces(soup_of_joined(simulated_, soup.unit_m));
+    }
+
+    std::vector<CookedGarment> cook_with_even_triangles() {
+        way_ = Way::even;
+        std::vector<std::string> notes = pieces_.notes;
+        simulated_ = with_even_triangles(pieces_, kSide_m);
+        pieces_ = make_pieces(soup_of_joined(simulated_, pieces_.unit_m));
+        pieces_.notes = std::move(notes);
+        return cook_pieces();
     }
 
     /// With all ends open that may be closed by cloth; then without what was in the way alone, and in the
@@ -153,12 +182,13 @@ private:
             if (probe.is_in_the_way(MeshQuery(soup_.places, indices), alignment_.moved, alignment_.stance))
                 in_the_way.push_back(cap);
         }
+        if (opened && in_the_way.empty()) fail(VFIT_ERROR_DATA, "no end that is closed by cloth is in the way");
         // Triangles made anew are as large as they should be in the unit that was taken at first.
         constexpr float kSame = 1.2f;
         const bool is_same = scale < kSame && scale > 1.0f / kSame;
         const Soup open = without(soup_, caps);
         soup_ = without(soup_, in_the_way);
-        if (in_the_way.size() < caps.size() || (way_ != Way::as_modelled && !is_same)) {
+        if (in_the_way.size() < caps.size() || (way_ == Way::anew && !is_same)) {
             const size_t noted = notes_.size();
             try {
                 pieces_ = pieces_of(soup_);
@@ -172,7 +202,8 @@ private:
                 has_trims_ = true;
             }
         }
-        if (!in_the_way.empty())
+        ends_cut_ = in_the_way.size();
+        if (ends_cut_ > 0)
             notes_.push_back(text(in_the_way.size(), " ends that were closed by cloth were cut open"));
     }
 
@@ -194,13 +225,15 @@ private:
         return scale;
     }
 
-    std::vector<CookedGarment> cook_pieces(bool as_they_are) {
+    std::vector<CookedGarment> cook_pieces() {
         const std::vector<WornPiece> worn = worn_pieces();
         if (worn.empty()) fail(VFIT_ERROR_DATA, "the garment goes round nothing");
+        for (const WornPiece& piece : worn) check_no_bag(piece.parted);
+        stage_ = 3;
         std::vector<CookedGarment> out;
         std::set<std::string> names;
         for (const WornPiece& piece : worn) {
-            CookedGarment cooked = cook(piece, as_they_are);
+            CookedGarment cooked = cook(piece);
             if (worn.size() > 1) {
                 const std::string kind = cooked.garment.kind;
                 for (int i = 2; cooked.of_set.empty(); ++i)
@@ -212,11 +245,20 @@ private:
         }
         if (way_ != Way::as_modelled || has_trims_) draw_as_modelled(out);
         std::vector<std::string>& notes = out.front().notes;
-        const std::vector<std::string>& read = way_ == Way::as_modelled ? pieces_.notes : soup_.notes;
-        notes_.insert(notes_.begin(), read.begin(), read.end());
-        notes_.insert(notes_.begin(), model_.notes.begin(), model_.notes.end());
-        notes.insert(notes.begin(), notes_.begin(), notes_.end());
+        const std::vector<std::string>& read = way_ == Way::anew ? soup_.notes : pieces_.notes;
+        const std::array<const std::vector<std::string>*, 3> before = {&notes_, &read, &model_.notes};
+        for (const auto* list : before) notes.insert(notes.begin(), list->begin(), list->end());
         return out;
+    }
+
+    /// A tube without sleeves and legs that was closed at one end is a hat, a bag or a sock. Figures' skirts are
+    /// closed at both.
+    void check_no_bag(const Parted& parted) const {
+        constexpr int kLimbs = 3;
+        if (ends_cut_ == 1 && !options_.cook.kind_told && parted.count() < kLimbs)
+            fail(VFIT_ERROR_DATA,
+                 "it is closed by cloth at one end and has neither sleeves nor legs, as a hat, a bag or a sock "
+                 "(a garment is told by --kind)");
     }
 
     /// Each triangle goes with the garment that is closest to it.
@@ -330,8 +372,7 @@ private:
              " mm away; join them by common vertices");
     }
 
-    /// as_they_are: else VFIT_ERROR_DATA where triangles are too small to be simulated well.
-    CookedGarment cook(const WornPiece& worn, bool as_they_are) {
+    CookedGarment cook(const WornPiece& worn) {
         const Stopwatch watch;
         Surface surface = make_surface(pieces_, *worn.piece, way_ == Way::anew ? kAnewHole_m : kHole_m);
         const FabricMaterial material = fabrics_.get(options_.cook.fabric);
@@ -352,6 +393,7 @@ private:
         g.cut_shape = surface.positions;
         const std::vector<Vec2> cut = cut_corners(g);
         const WholeCloth cloth{surface.indices, cut, &material};
+        const bool as_they_are = way_ != Way::as_modelled || options_.remake == Remake::never;
         if (!as_they_are && (!keeps_layers_apart(cloth, thickness) || is_of_needles(cloth)))
             fail(VFIT_ERROR_DATA, "its triangles are too small for its own layers to be kept apart");
         std::vector<Vec3> places = surface.positions;
@@ -548,6 +590,7 @@ private:
     Model simulated_;  // where it is not the mesh itself
     Way way_ = Way::as_modelled;
     bool has_trims_ = false;
+    size_t ends_cut_ = 0;
     int stage_ = 0;
     Pieces pieces_;
     Alignment alignment_;
@@ -565,24 +608,23 @@ std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& 
     std::vector<CookedGarment> best;
     std::exception_ptr fault;
     int stage = -1;  // of the fault: what is told is of the way that came furthest
-    const auto try_out = [&](Way way, bool opened) {
+    const auto try_out = [&](bool anew, bool opened) {
         if (!best.empty() && crossings_of(best) == 0) return;
         ModelCook cook(body_model, model, fabrics, options, jobs);
         try {
-            std::vector<CookedGarment> cooked = cook.run(way, opened, options.remake == Remake::never);
+            std::vector<CookedGarment> cooked = anew ? cook.run_anew(opened) : cook.run(opened);
             if (best.empty() || crossings_of(cooked) < crossings_of(best)) best = std::move(cooked);
-        } catch (const Error&) {
+        } catch (const Error& e) {
+            if (getenv("VFIT_DBG")) printf("DBG %d %d: %s\n", anew, opened, e.what()), fflush(stdout);
             if (cook.stage() <= stage) return;
             fault = std::current_exception();
             stage = cook.stage();
         }
     };
     if (options.remake != Remake::always)
-        for (const bool opened : {false, true}) try_out(Way::as_modelled, opened);
-    if (options.remake == Remake::where_needed)
-        for (const bool opened : {false, true}) try_out(Way::even, opened);
+        for (const bool opened : {false, true}) try_out(false, opened);
     if (options.remake != Remake::never)
-        for (const bool opened : {false, true}) try_out(Way::anew, opened);
+        for (const bool opened : {false, true}) try_out(true, opened);
     if (best.empty()) std::rethrow_exception(fault);
     return best;
 }

@@ -79,8 +79,14 @@ public:
         for (Vec3& p : places_) p = turn * (scale * p);
         for (const Piece& piece : pieces.list) {
             indices_.insert(indices_.end(), piece.indices.begin(), piece.indices.end());
-            for (const auto& opening : piece.openings)
-                if (length_around(places_, opening) > kNoLimb_m) openings_.push_back(opening);
+            for (const auto& opening : piece.openings) {
+                const float length = length_around(places_, opening);
+                if (length <= kNoLimb_m) continue;
+                openings_.push_back(opening);
+                Box box;
+                for (const uint32_t v : opening) box.add(places_[v]);
+                ends_.push_back({centre(opening), length, box.low.x, box.high.x});
+            }
             for (const uint32_t v : piece.indices) box_.add(places_[v]);
         }
         cloth_.emplace(places_, indices_);
@@ -326,15 +332,14 @@ private:
         const TailorLevels& levels = body_.outline().levels();
         const std::vector<uint32_t>* best = nullptr;
         float furthest = -INFINITY;
-        for (const auto& opening : openings_) {
-            if (length_around(places_, opening) < kLeast_m) continue;
-            if (std::any_of(opening.begin(), opening.end(),
-                            [&](uint32_t v) { return side * (places_[v].x + moved.x) < kMiddle_m; }))
-                continue;
-            const Vec3 at = centre(opening) + moved;
+        for (size_t i = 0; i < openings_.size(); ++i) {
+            const End& end = ends_[i];
+            const float innermost = side < 0.0f ? -end.high_x - moved.x : end.low_x + moved.x;
+            if (end.length_m < kLeast_m || innermost < kMiddle_m) continue;
+            const Vec3 at = end.centre + moved;
             if (is_arm ? at.y < levels.hip - kHand_m : at.y > levels.hip) continue;
             const float far_out = is_arm ? side * at.x : -at.y;
-            if (far_out > furthest) furthest = far_out, best = &opening;
+            if (far_out > furthest) furthest = far_out, best = &openings_[i];
         }
         return best;
     }
@@ -351,6 +356,22 @@ private:
     /// The middle of the sleeve about that place, square to its length.
     std::optional<Vec3> middle_at(const Vec3& place, const Vec3& along) const {
         constexpr float kReach_m = 0.2f;
+        // From within it is seen all around, which is much faster than to cut all of the cloth.
+        constexpr int kRays = 12;
+        const Vec3 a = glm::normalize(
+                       glm::cross(along, std::abs(along.x) < 0.8f ? Vec3(1, 0, 0) : Vec3(0, 0, 1))),
+                   b = glm::cross(along, a);
+        Vec3 seen(0.0f);
+        int hits = 0;
+        for (int i = 0; i < kRays; ++i) {
+            const float angle = 2.0f * kPi * float(i) / float(kRays);
+            const Vec3 direction = std::cos(angle) * a + std::sin(angle) * b;
+            const auto hit = cloth_->cast(place, direction, kReach_m);
+            if (!hit) break;
+            seen += place + hit->distance * direction;
+            ++hits;
+        }
+        if (hits == kRays) return seen / float(kRays);
         const Section section = cut(places_, indices_, place, along);
         const std::vector<Vec2>* best = nullptr;
         float nearest = kReach_m;
@@ -391,6 +412,11 @@ private:
     std::vector<Vec3> places_;
     std::vector<uint32_t> indices_;
     std::vector<std::vector<uint32_t>> openings_;
+    struct End {
+        Vec3 centre;
+        float length_m, low_x, high_x;
+    };
+    std::vector<End> ends_;  // of these
     std::optional<MeshQuery> cloth_;
     Box box_;
     float outwards_ = 1.0f;  // its triangles' normals look out, or in (-1)
@@ -434,14 +460,14 @@ public:
 
 private:
     // Costs.
-    static constexpr float kGood = 0.8f, kOtherScale = 0.3f, kOutOfPlace = 0.8f, kMost = 2.0f + kOutOfPlace,
+    static constexpr float kGood = 0.8f, kOtherScale = 0.3f, kOutOfPlace = 0.8f, kMost = 2.0f,
                            kNotItsKind = 10.0f;
     struct Way {
         Alignment alignment;
         SkeletonProbe::Found found;
         Parted parted;
         size_t turn;
-        float cost, empty = 0.0f;
+        float cost, out_of_place = 0.0f, empty = 0.0f;  // the cost is with that
     };
 
     /// Children and drawn figures: as large as makes the closest girth a usual one.
@@ -505,7 +531,8 @@ private:
             way.cost = cost(way, !is_first || (!unit && !options_.size_known)) + 0.1f * float(w);
             if (candidate.is_too_long(way.alignment.moved, !by_waist)) way.cost += kNotItsKind;
             if (!options_.size_known && !is_stated(unit)) way.cost += kOtherScale;
-            if (!options_.size_known && !is_in_place(way.alignment.moved)) way.cost += kOutOfPlace;
+            if (!options_.size_known && !is_in_place(way.alignment.moved)) way.out_of_place = kOutOfPlace;
+            way.cost += way.out_of_place;
             if (way.cost < kNotItsKind && (!best_ || way.cost < best_->cost)) {
                 constexpr float kEmpty = 0.2f;
                 way.empty = candidate.empty_share(way.alignment.moved, way.alignment.stance);
@@ -601,7 +628,7 @@ private:
             fail(VFIT_ERROR_DATA, "no place was found where the garment is worn: wherever it is held, ",
                  std::lround(100.0f * best_->empty), " % of its cloth stays empty, as sleeves without arms");
         const bool is_told = options_.unit_told || options_.scale != 0.0f || options_.size_known;
-        if (best_->cost >= (is_told ? kNotItsKind : kMost))
+        if (best_->cost - best_->out_of_place >= (is_told ? kNotItsKind : kMost))
             fail(VFIT_ERROR_DATA, "its size can't be told: no unit makes it fit (--unit or --scale says it)");
     }
 
