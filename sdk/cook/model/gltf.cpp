@@ -1,5 +1,6 @@
 #include "cook/model/gltf.h"
 
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <set>
 
@@ -83,8 +84,6 @@ private:
         const tinygltf::TextureInfo& info =
             document_.model().materials[m].pbrMetallicRoughness.baseColorTexture;
         const std::string of = " of material \"" + model_.materials[m].name + "\"";
-        if (info.extensions.count("KHR_texture_transform"))
-            model_.notes.push_back("the transform of the texture" + of + " is left out");
         if (info.index < 0) return;
         const int image = picture_of(document_.model().materials[m]);
         if (image < 0)
@@ -216,13 +215,46 @@ private:
 
     bool add_uvs(const tinygltf::Primitive& p, const std::string& what, size_t count) {
         int set = 0;
-        if (p.material >= 0 && size_t(p.material) < document_.model().materials.size())
-            set = std::max(0, document_.model()
-                                  .materials[size_t(p.material)]
-                                  .pbrMetallicRoughness.baseColorTexture.texCoord);
+        TextureTransform transform;
+        if (p.material >= 0 && size_t(p.material) < document_.model().materials.size()) {
+            const tinygltf::TextureInfo& info =
+                document_.model().materials[size_t(p.material)].pbrMetallicRoughness.baseColorTexture;
+            set = std::max(0, info.texCoord);
+            if (const auto found = info.extensions.find("KHR_texture_transform");
+                found != info.extensions.end())
+                transform = transform_of(found->second, what, set);
+        }
         const std::vector<float> uvs = rows(p, text("TEXCOORD_", set), 2, count, what);
-        for (size_t i = 0; i + 1 < uvs.size(); i += 2) model_.uvs.emplace_back(uvs[i], uvs[i + 1]);
+        for (size_t i = 0; i + 1 < uvs.size(); i += 2)
+            model_.uvs.push_back(transform.axes * Vec2(uvs[i], uvs[i + 1]) + transform.offset);
         return !uvs.empty();
+    }
+
+    /// KHR_texture_transform: the garment's uvs are those of the picture.
+    struct TextureTransform {
+        glm::mat2 axes{1.0f};
+        Vec2 offset{0.0f};
+    };
+    static TextureTransform transform_of(const tinygltf::Value& value, const std::string& what, int& set) {
+        const auto number = [&](const tinygltf::Value& of) {
+            const double number = of.IsNumber() ? of.GetNumberAsDouble() : NAN;
+            constexpr double kMost = 1e4;
+            if (!(std::abs(number) <= kMost))
+                fail(VFIT_ERROR_DATA, what, ": a number of KHR_texture_transform is none");
+            return float(number);
+        };
+        const auto pair = [&](const char* key, const Vec2& usual) {
+            if (!value.Has(key)) return usual;
+            const tinygltf::Value& of = value.Get(key);
+            if (!of.IsArray() || of.ArrayLen() != 2)
+                fail(VFIT_ERROR_DATA, what, ": \"", key, "\" of KHR_texture_transform are not two numbers");
+            return Vec2(number(of.Get(0)), number(of.Get(1)));
+        };
+        const Vec2 scale = pair("scale", Vec2(1.0f));
+        const float turn = value.Has("rotation") ? number(value.Get("rotation")) : 0.0f;
+        if (value.Has("texCoord")) set = std::max(0, value.Get("texCoord").GetNumberAsInt());
+        const Vec2 across(std::cos(turn), -std::sin(turn)), down(std::sin(turn), std::cos(turn));
+        return {glm::mat2(scale.x * across, scale.y * down), pair("offset", Vec2(0.0f))};
     }
 
     const GltfDocument& document_;

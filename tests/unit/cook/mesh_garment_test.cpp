@@ -615,6 +615,31 @@ TEST(GltfGarment, IsReadWithItsNodesSkinsAndTextures) {
     EXPECT_LT(glm::length(read_glb(skinned).positions[1] - (first + Vec3(0, 0.5f, 0))), 1e-6f);
 }
 
+TEST(GltfGarment, UvsAreThoseOfThePicture) {
+    TinyGlb glb = tube_glb();
+    auto& texture = glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    glb.json["images"] = {{{"uri", "a.png"}}};
+    glb.json["textures"] = {{{"source", 0}}};
+    texture = {{"index", 0}};
+    const std::vector<Vec2> plain = read_glb(glb).uvs;
+    // The example of the extension's text: a quarter turn about the origin, half the size, moved down.
+    texture["extensions"]["KHR_texture_transform"] = {
+        {"offset", {0.0, 1.0}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}};
+    const std::vector<Vec2> turned = read_glb(glb).uvs;
+    ASSERT_EQ(turned.size(), plain.size());
+    for (size_t i = 0; i < plain.size(); ++i)
+        ASSERT_LT(glm::length(turned[i] - Vec2(0.5f * plain[i].y, 1.0f - 0.5f * plain[i].x)), 1e-5f);
+    texture["extensions"]["KHR_texture_transform"] = {{"offset", {0.25, -0.5}}, {"scale", {2.0, 3.0}}};
+    const std::vector<Vec2> scaled = read_glb(glb).uvs;
+    for (size_t i = 0; i < plain.size(); ++i)
+        ASSERT_LT(glm::length(scaled[i] - Vec2(2.0f * plain[i].x + 0.25f, 3.0f * plain[i].y - 0.5f)), 1e-5f);
+    for (const auto& [key, value] : {std::pair("scale", nlohmann::json::array({1.0})), {"offset", nlohmann::json("x")},
+                                     {"rotation", nlohmann::json("x")}, {"scale", nlohmann::json::array({1e30, 1.0})}}) {
+        texture["extensions"]["KHR_texture_transform"] = {{key, value}};
+        EXPECT_THROW(read_glb(glb), Error) << key;
+    }
+}
+
 TEST(GltfGarment, IsRefusedWithTheReason) {
     const auto refused = [](auto&& change, const char* word, vfit_result code = VFIT_ERROR_DATA) {
         TinyGlb glb = tube_glb();
