@@ -6,6 +6,6 @@ int main(int argc, char** argv) {
     return run_program(
         "vfit", "Virtual fitting from one depth camera: measure, size, move, dress.",
         {add_info, add_measure, add_cameras, add_calibrate, add_validate, add_estimate, add_size, add_track,
-         add_motion, add_fit, add_record, add_cook, add_plot, add_character, add_wear},
+         add_motion, add_fit, add_record, add_cook, add_alter, add_plot, add_character, add_wear},
         argc, argv);
 }

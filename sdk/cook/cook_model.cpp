@@ -111,34 +111,32 @@ public:
           soup_(make_soup(model,
                           plausible_unit(model, options.alignment.unit_m, options.alignment.unit_told))) {}
 
-    /// opened: ends that are closed by cloth are cut open. As it was modelled, and where it crosses or its
-    /// triangles are too small or too thin for that, with even ones.
-    std::vector<CookedGarment> run(bool opened) {
+    /// anew: what is simulated is a sheet along its outer side. opened: ends that are closed by cloth are cut
+    /// open. Where it crosses, or its triangles are too small or too thin to be simulated well, even ones are
+    /// tried; where little is left that crosses, even ones of other sizes.
+    std::vector<CookedGarment> run(bool anew, bool opened) {
+        if (anew) way_ = Way::anew;
         bring_to_body(opened);
         stage_ = 2;
-        std::vector<CookedGarment> first;
+        std::vector<CookedGarment> best;
         std::exception_ptr fault;
-        try {
-            first = cook_pieces();
-            if (options_.remake == Remake::never || crossings_of(first) == 0) return first;
-        } catch (const Error&) {
-            if (stage_ < 3 || options_.remake == Remake::never) throw;
-            fault = std::current_exception();
+        const Pieces as_they_are = pieces_;
+        for (const float size : {0.0f, 1.0f, 0.9f, 1.1f}) {
+            constexpr uint32_t kFew = 30;
+            const bool is_other_size = size > 0.0f && (size != 1.0f || anew);
+            if (is_other_size && (best.empty() || crossings_of(best) > kFew)) continue;
+            try {
+                if (size > 0.0f) even_out(as_they_are, size * kSide_m);
+                std::vector<CookedGarment> cooked = cook_pieces();
+                if (best.empty() || crossings_of(cooked) < crossings_of(best)) best = std::move(cooked);
+            } catch (const Error&) {
+                if (stage_ < 3) throw;
+                if (!fault) fault = std::current_exception();
+            }
+            if (options_.remake == Remake::never || (!best.empty() && crossings_of(best) == 0)) break;
         }
-        try {
-            std::vector<CookedGarment> even = cook_with_even_triangles();
-            return first.empty() || crossings_of(even) < crossings_of(first) ? even : first;
-        } catch (const Error&) {
-            if (fault) std::rethrow_exception(fault);
-            return first;
-        }
-    }
-    /// What is simulated is a surface along its outer side.
-    std::vector<CookedGarment> run_anew(bool opened) {
-        way_ = Way::anew;
-        bring_to_body(opened);
-        stage_ = 2;
-        return cook_pieces();
+        if (best.empty()) std::rethrow_exception(fault);
+        return best;
     }
     /// How far it came: to a surface (1), to the body (2), to a garment on it (3).
     int stage() const { return stage_; }
@@ -152,17 +150,15 @@ private:
         constexpr float kMostArea_m2 = 6.0f;
         float area_m2 = 0.0f;
         for (const ModelTriangle& t : soup.triangles) area_m2 += area_of(soup.places, t);
-        simulated_ = envelope_of(soup, kSide_m * std::max(1.0f, std::sqrt(area_m2 / kMostArea_m2)));
-        return make_pieces(soup_of_joined(simulated_, soup.unit_m));
+        envelope_ = envelope_of(soup, kSide_m * std::max(1.0f, std::sqrt(area_m2 / kMostArea_m2)));
+        return make_pieces(soup_of_joined(envelope_, soup.unit_m));
     }
 
-    std::vector<CookedGarment> cook_with_even_triangles() {
-        way_ = Way::even;
-        std::vector<std::string> notes = pieces_.notes;
-        simulated_ = with_even_triangles(pieces_, kSide_m);
-        pieces_ = make_pieces(soup_of_joined(simulated_, pieces_.unit_m));
-        pieces_.notes = std::move(notes);
-        return cook_pieces();
+    void even_out(const Pieces& pieces, float side_m) {
+        if (way_ == Way::as_modelled) way_ = Way::even;
+        even_ = with_even_triangles(pieces, side_m);
+        pieces_ = make_pieces(soup_of_joined(even_, pieces.unit_m));
+        pieces_.notes = pieces.notes;
     }
 
     /// With all ends open that may be closed by cloth; then without what was in the way alone, and in the
@@ -182,7 +178,8 @@ private:
             if (probe.is_in_the_way(MeshQuery(soup_.places, indices), alignment_.moved, alignment_.stance))
                 in_the_way.push_back(cap);
         }
-        if (opened && in_the_way.empty()) fail(VFIT_ERROR_DATA, "no end that is closed by cloth is in the way");
+        if (opened && in_the_way.empty() && way_ == Way::as_modelled)
+            fail(VFIT_ERROR_DATA, "no end that is closed by cloth is in the way");
         // Triangles made anew are as large as they should be in the unit that was taken at first.
         constexpr float kSame = 1.2f;
         const bool is_same = scale < kSame && scale > 1.0f / kSame;
@@ -190,16 +187,25 @@ private:
         soup_ = without(soup_, in_the_way);
         if (in_the_way.size() < caps.size() || (way_ == Way::anew && !is_same)) {
             const size_t noted = notes_.size();
+            Model envelope = envelope_;
+            Pieces pieces = pieces_;
+            const Alignment alignment = alignment_;
+            const Vec3 moved = moved_;
             try {
                 pieces_ = pieces_of(soup_);
                 align_pieces(true);
             } catch (const Error&) {
-                if (caps.empty()) throw;
-                // What looks like an end closes it all the same; it is drawn.
                 notes_.resize(noted);
-                pieces_ = pieces_of(open);
-                align_pieces(true);
-                has_trims_ = true;
+                if (caps.empty()) {
+                    // With finer triangles more of it is in the way: it stays as it came there.
+                    envelope_ = std::move(envelope), pieces_ = std::move(pieces);
+                    alignment_ = alignment, moved_ = moved;
+                } else {
+                    // What looks like an end closes it all the same; it is drawn.
+                    pieces_ = pieces_of(open);
+                    align_pieces(true);
+                    has_trims_ = true;
+                }
             }
         }
         ends_cut_ = in_the_way.size();
@@ -251,13 +257,16 @@ private:
         return out;
     }
 
-    /// A tube without sleeves and legs that was closed at one end is a hat, a bag or a sock. Figures' skirts are
-    /// closed at both.
+    /// A tube without sleeves and legs that was closed at one end is a hat, a bag or a sock, unless it was
+    /// where a figure wears its skirt.
     void check_no_bag(const Parted& parted) const {
         constexpr int kLimbs = 3;
-        if (ends_cut_ == 1 && !options_.cook.kind_told && parted.count() < kLimbs)
+        constexpr float kPlace_m = 0.25f;
+        const bool is_in_place = glm::length(moved_) < kPlace_m;
+        if (ends_cut_ == 1 && !is_in_place && !options_.cook.kind_told && parted.count() < kLimbs)
             fail(VFIT_ERROR_DATA,
-                 "it is closed by cloth at one end and has neither sleeves nor legs, as a hat, a bag or a sock "
+                 "it is closed by cloth at one end and has neither sleeves nor legs, as a hat, a bag or a "
+                 "sock "
                  "(a garment is told by --kind)");
     }
 
@@ -587,7 +596,7 @@ private:
     Jobs& jobs_;
     const CookBody body_;
     Soup soup_;
-    Model simulated_;  // where it is not the mesh itself
+    Model envelope_, even_;  // where what is simulated is not the mesh itself
     Way way_ = Way::as_modelled;
     bool has_trims_ = false;
     size_t ends_cut_ = 0;
@@ -612,10 +621,9 @@ std::vector<CookedGarment> cook_model(const BodyModel& body_model, const Model& 
         if (!best.empty() && crossings_of(best) == 0) return;
         ModelCook cook(body_model, model, fabrics, options, jobs);
         try {
-            std::vector<CookedGarment> cooked = anew ? cook.run_anew(opened) : cook.run(opened);
+            std::vector<CookedGarment> cooked = cook.run(anew, opened);
             if (best.empty() || crossings_of(cooked) < crossings_of(best)) best = std::move(cooked);
-        } catch (const Error& e) {
-            if (getenv("VFIT_DBG")) printf("DBG %d %d: %s\n", anew, opened, e.what()), fflush(stdout);
+        } catch (const Error&) {
             if (cook.stage() <= stage) return;
             fault = std::current_exception();
             stage = cook.stage();

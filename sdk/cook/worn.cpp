@@ -62,10 +62,10 @@ std::vector<std::string> goes_round(std::span<const Vec3> places, std::span<cons
     };
     constexpr float kFar_m = 2.0f, kNeck_m = 0.25f;
     add("neck", body.joint(VFIT_BONE_NECK), up, kNeck_m);
-    // Somewhere along each: a bra's band lies below the bust, a brief's legs are cut up to the hips, and a
+    // Somewhere along each: a bra's band lies below the bust, hip trousers end below the waist, and a
     // waistband's edge lies at the waist or a little below.
     const float axis_z = body.outline().axis_z();
-    constexpr float kBelowBust_m = 0.1f, kBelowHips_m = 0.05f;
+    constexpr float kBelowBust_m = 0.1f, kBelowHips_m = 0.03f;
     add("chest", {0.0f, levels.bust, axis_z}, up, kFar_m, -kBelowBust_m);
     add("waist", {0.0f, levels.waist, axis_z}, up, kFar_m);
     add("hips", {0.0f, levels.hip, axis_z}, up, kFar_m, -kBelowHips_m, 0.5f * (levels.waist - levels.hip));

@@ -1278,6 +1278,36 @@ class Contract(unittest.TestCase):
                 run("fit", VIRTUAL, "--garment", folder / "design.json", "--out", folder), "design.json"
             )
 
+    def test_a_garment_is_altered_until_it_has_the_ease(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            alter = ("alter", GARMENTS / "vest.json", "--draft", "--out", folder / "out")
+            wanted = ("--size", "L", "--sex", "f", "--ease", "chest=8,waist=10")
+            ticket = document(self, *alter, *wanted, "--json")
+            changes = {change["place"]: change for change in ticket["changes"]}
+            self.assertEqual(sorted(changes), ["chest", "waist"])
+            for place, ease_m in (("chest", 0.08), ("waist", 0.1)):
+                self.assertAlmostEqual(changes[place]["ease_goal_m"], ease_m, places=4)
+                self.assertAlmostEqual(changes[place]["ease_after_m"], ease_m, delta=0.005)
+                self.assertLess(changes[place]["by_m"], -0.05)
+            text = (folder / "out" / "ticket.txt").read_text()
+            self.assertRegex(text, r"chest: take in [\d.]+ cm \(ease [\d.]+ cm, then (8(\.\d)?|7\.\d) cm\)")
+            self.assertGreater(min(picture(folder / "out" / "ticket.png")[:2]), 200)
+            # The altered size is a garment as any other, and has nothing left to change.
+            again = ("alter", ticket["altered"], "--draft", "--out", folder / "again", "--json")
+            left = document(self, *again, "--size", "L altered", "--sex", "f", "--ease", "chest=8,waist=10")
+            self.assertEqual(left["changes"], [])
+            self.assertEqual(left["altered"], "")
+            for bad, word in (
+                (("--size", "Q"), "no size Q"),
+                (("--size", "L", "--ease", "hip=9"), "does not go round the hip"),
+            ):
+                self.check_failure(run(*alter, *bad), word)
+            self.assertEqual(run(*alter, "--size", "L", "--ease", "chest=wide").returncode, 2)
+            self.check_failure(
+                run("alter", GARMENTS / "sundress.json", "--size", "M", "--out", folder / "x"), "flat panels"
+            )
+
     def test_a_catalogue_goes_on_where_it_was_ended(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)

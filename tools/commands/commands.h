@@ -19,6 +19,7 @@ void add_motion(Command& app);
 void add_fit(Command& app);
 void add_record(Command& app);
 void add_cook(Command& app);
+void add_alter(Command& app);
 void add_plot(Command& app);
 void add_character(Command& app);
 void add_wear(Command& app);

@@ -358,6 +358,7 @@ private:
         constexpr float kReach_m = 0.2f;
         // From within it is seen all around, which is much faster than to cut all of the cloth.
         constexpr int kRays = 12;
+        constexpr float kSleeve_m = 0.1f;
         const Vec3 a = glm::normalize(
                        glm::cross(along, std::abs(along.x) < 0.8f ? Vec3(1, 0, 0) : Vec3(0, 0, 1))),
                    b = glm::cross(along, a);
@@ -366,7 +367,7 @@ private:
         for (int i = 0; i < kRays; ++i) {
             const float angle = 2.0f * kPi * float(i) / float(kRays);
             const Vec3 direction = std::cos(angle) * a + std::sin(angle) * b;
-            const auto hit = cloth_->cast(place, direction, kReach_m);
+            const auto hit = cloth_->cast(place, direction, kSleeve_m);
             if (!hit) break;
             seen += place + hit->distance * direction;
             ++hits;

@@ -633,8 +633,10 @@ TEST(GltfGarment, UvsAreThoseOfThePicture) {
     const std::vector<Vec2> scaled = read_glb(glb).uvs;
     for (size_t i = 0; i < plain.size(); ++i)
         ASSERT_LT(glm::length(scaled[i] - Vec2(2.0f * plain[i].x + 0.25f, 3.0f * plain[i].y - 0.5f)), 1e-5f);
-    for (const auto& [key, value] : {std::pair("scale", nlohmann::json::array({1.0})), {"offset", nlohmann::json("x")},
-                                     {"rotation", nlohmann::json("x")}, {"scale", nlohmann::json::array({1e30, 1.0})}}) {
+    for (const auto& [key, value] : {std::pair("scale", nlohmann::json::array({1.0})),
+                                     {"offset", nlohmann::json("x")},
+                                     {"rotation", nlohmann::json("x")},
+                                     {"scale", nlohmann::json::array({1e30, 1.0})}}) {
         texture["extensions"]["KHR_texture_transform"] = {{key, value}};
         EXPECT_THROW(read_glb(glb), Error) << key;
     }
