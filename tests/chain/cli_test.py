@@ -1319,7 +1319,7 @@ class Contract(unittest.TestCase):
             (designs / "broken<b>.obj").write_text("v 0 0 0\nf 1 2 3\n")
             cook = ("cook", designs, "--out", out, "--jobs", 2)
             states = lambda report: [design["state"] for design in report["designs"]]  # noqa: E731
-            done = run(*cook, "--limit", 1, "--json")
+            done = run(*cook, "--limit", 1, "--triangle", 6, "--json")  # long on any machine
             self.assertEqual(done.returncode, 1)
             self.assertIn("longer than 1 s", done.stdout)
             self.assertIn("over_time", states(json.loads(done.stdout)))
