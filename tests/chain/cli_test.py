@@ -1293,7 +1293,16 @@ class Contract(unittest.TestCase):
             text = (folder / "out" / "ticket.txt").read_text()
             self.assertRegex(text, r"chest: take in [\d.]+ cm \(ease [\d.]+ cm, then (8(\.\d)?|7\.\d) cm\)")
             self.assertGreater(min(picture(folder / "out" / "ticket.png")[:2]), 200)
-            # The altered size is a garment as any other, and has nothing left to change.
+            # What a file calls itself is no path.
+            foreign = json.loads((GARMENTS / "vest.json").read_text()) | {"name": "../../vest"}
+            (folder / "foreign.json").write_text(json.dumps(foreign))
+            other = document(
+                self, "alter", folder / "foreign.json", "--draft", "--out", folder / "f", *wanted, "--json"
+            )
+            self.assertEqual(pathlib.Path(other["altered"]), folder / "f" / "foreign_altered.json")
+            self.assertEqual([path.name for path in folder.glob("*_altered.json")], [])
+            # The altered size is a garment as any other, and has nothing left to change; it can be made anew.
+            document(self, "alter", ticket["altered"], "--draft", "--out", folder / "f", *wanted, "--json")
             again = ("alter", ticket["altered"], "--draft", "--out", folder / "again", "--json")
             left = document(self, *again, "--size", "L altered", "--sex", "f", "--ease", "chest=8,waist=10")
             self.assertEqual(left["changes"], [])
@@ -1301,6 +1310,7 @@ class Contract(unittest.TestCase):
             for bad, word in (
                 (("--size", "Q"), "no size Q"),
                 (("--size", "L", "--ease", "hip=9"), "does not go round the hip"),
+                (("--size", "L", "--ease", "chest=-90"), "half of the body's girth"),
             ):
                 self.check_failure(run(*alter, *bad), word)
             self.assertEqual(run(*alter, "--size", "L", "--ease", "chest=wide").returncode, 2)
@@ -1341,7 +1351,8 @@ class Contract(unittest.TestCase):
             # A kill in the midst of a line, a design that was edited, a garment file that was taken away.
             before = stamps()
             with (out / "designs.jsonl").open("a") as journal:
-                journal.write('{"design": "')
+                key = {"design": str(designs / "vest.json"), "key": 1, "state": "cooked"}
+                journal.write(json.dumps(key) + '\n[1]\n{"design": 3, "key": "x"}\n{"design": "')
             again = json.loads(run(*cook, "--resume", "--json").stdout)
             self.assertEqual(again, report)
             self.assertEqual(stamps(), before | {"report.json": stamps()["report.json"]})
@@ -1371,7 +1382,15 @@ class Contract(unittest.TestCase):
             again = json.loads(run(*cook, "--resume", "--json").stdout)
             self.assertEqual(states(again), states(report))
             self.assertEqual((out / "pants_men.json").stat().st_mtime_ns, kept)
-            for wrong in (("--resume",), ("--jobs", 2)):
+            # Designs below OUT are designs; OUT itself is none.
+            self.check_failure(run("cook", designs, "--out", designs), "folder of the designs")
+            inside = folder / "around" / "designs"
+            inside.mkdir(parents=True)
+            shutil.copy(source / "vest.json", inside / "a #1.json")
+            around = document(self, "cook", inside, "--out", folder / "around", "--json")
+            self.assertEqual(states(around), ["cooked"])
+            self.assertIn('src="pictures/a%20%231.png"', (folder / "around" / "report.html").read_text())
+            for wrong in (("--resume",), ("--jobs", 2), ("--limit", 9)):
                 done = run("cook", designs / "vest.json", "--out", folder / "x.json", *wrong)
                 self.assertEqual(done.returncode, 2)
             self.assertEqual(run(*cook, "--picture", folder / "x.png").returncode, 2)

@@ -65,7 +65,11 @@ Json altered(const Json& garment, const std::string& label, const std::string& a
         Json more = size;
         more["label"] = as;
         more["flat"] = flat;
-        out["sizes"].push_back(std::move(more));
+        auto& sizes = out["sizes"];
+        sizes.erase(std::remove_if(sizes.begin(), sizes.end(),
+                                   [&](const Json& known) { return known["label"] == as; }),
+                    sizes.end());
+        sizes.push_back(std::move(more));
         return out;
     }
     throw Failure("it has no size " + label);

@@ -14,8 +14,9 @@ struct Widening {
     float height_m, factor;
 };
 
-/// The garment file (docs/garments.md) with one size more, called `as`: that of `label` with each panel wider
-/// about its own middle. Sleeves stay. Throws Failure where the garment has no flat panels or no such size.
+/// The garment file (docs/garments.md) with one size more, called `as` (it replaces one that is called so):
+/// that of `label` with each panel wider about its own middle. Sleeves stay. Throws Failure where the garment
+/// has no flat panels or no such size.
 Json altered(const Json& garment, const std::string& label, const std::string& as,
              const std::vector<Widening>& widenings);
 

@@ -213,6 +213,11 @@ void alter(const Options& options) {
     for (const auto& [key, ease] : wanted)
         if (!zones.count(key)) throw Failure(name + " does not go round the " + place_of(key));
     const std::vector<Change> changes = changes_of(zones, size, wanted);
+    constexpr float kMin = 0.5f;  // of the body's girth
+    for (const Change& change : changes)
+        if (change.goal_m < kMin * change.body_m)
+            throw Failure(name + ": at the " + place_of(change.key) +
+                          " less than half of the body's girth would be left");
 
     // Girths that are not changed stay as wide as they are.
     std::map<std::string, float> factors, goals;
@@ -255,7 +260,9 @@ void alter(const Options& options) {
     const auto in_out = [&](const std::string& of) {
         return (std::filesystem::path(options.out) / of).string();
     };
-    const std::string altered_file = changes.empty() ? "" : in_out(name + "_altered.json");
+    // By the file's name: the garment's own is what a stranger wrote into it.
+    const std::string of = std::filesystem::path(options.garment).stem().string() + "_altered.json";
+    const std::string altered_file = changes.empty() ? "" : in_out(of);
     if (!changes.empty()) replace_text(altered_file, out.dump());
     const Json document = {{"garment", name},        {"size", options.size}, {"sex", options.sex},
                            {"shape", options.shape}, {"changes", ticket},    {"altered", altered_file}};
@@ -277,7 +284,7 @@ void alter(const Options& options) {
         print_document(document);
     else
         std::cout << text << "in " << options.out << ": ticket.txt, ticket.json, ticket.png"
-                  << (changes.empty() ? "" : ", " + name + "_altered.json (size \"" + as + "\")") << "\n";
+                  << (changes.empty() ? "" : ", " + of + " (size \"" + as + "\")") << "\n";
 }
 
 }  // namespace

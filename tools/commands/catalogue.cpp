@@ -40,11 +40,14 @@ bool is_below(const fs::path& file, const fs::path& folder) {
 }
 
 std::vector<fs::path> designs_in(const CatalogueOptions& options) {
+    if (fs::weakly_canonical(options.folder) == fs::weakly_canonical(options.out))
+        throw Failure(options.out + " is the folder of the designs: garments would take their names (--out)");
+    const bool has_out = is_below(options.out, options.folder);  // what lies there was cooked
     std::vector<fs::path> designs;
     for (const auto& entry : fs::recursive_directory_iterator(options.folder))
         if (entry.is_regular_file() &&
             (entry.path().extension() == ".json" || options.is_mesh(entry.path().string())) &&
-            !is_below(entry.path(), options.out))
+            !(has_out && is_below(entry.path(), options.out)))
             designs.push_back(entry.path());
     std::sort(designs.begin(), designs.end());
     if (designs.empty())
@@ -114,8 +117,24 @@ private:
         std::ifstream file(fs::path(options_.out) / kJournal);
         for (std::string line; std::getline(file, line);) {
             const Json row = Json::parse(line, nullptr, false);
-            if (row.is_object() && row.contains("design") && row.contains("key")) old_[row["design"]] = row;
+            if (is_row(row)) old_[row["design"].get<std::string>()] = row;
         }
+    }
+
+    /// Of a line that was cut off, or written by hand, nothing is believed.
+    static bool is_row(const Json& row) {
+        const auto is_text = [](const Json& of, const char* key) {
+            return of.is_object() && of.contains(key) && of[key].is_string();
+        };
+        for (const char* key : {"design", "key", "name", "state"})
+            if (!is_text(row, key)) return false;
+        if (!row.contains("seconds") || !row["seconds"].is_number()) return false;
+        if (row["state"] != "cooked") return is_text(row, "error");
+        const auto is_garment = [&](const Json& g) {
+            return is_text(g, "file") && is_text(g, "kind") && g.contains("vertices") && g.contains("sizes");
+        };
+        return row.contains("garments") && row["garments"].is_array() &&
+               std::all_of(row["garments"].begin(), row["garments"].end(), is_garment);
     }
 
     /// Leaves out what is no design, keeps what is known of it, or gives it a name.

@@ -1,5 +1,8 @@
 #include "commands/catalogue.h"
 
+#include <cctype>
+#include <cstdio>
+#include <cstring>
 #include <map>
 #include <sstream>
 
@@ -27,6 +30,20 @@ std::string escaped(const std::string& text) {
             out += "&quot;";
         else
             out += c;
+    }
+    return out;
+}
+
+/// As a path in a link (RFC 3986).
+std::string linked(const std::string& path) {
+    std::string out;
+    for (const char c : path) {
+        const auto byte = static_cast<unsigned char>(c);
+        char code[4];
+        if (std::isalnum(byte) || std::strchr("-._~/", c))
+            out += c;
+        else
+            std::snprintf(code, sizeof code, "%%%02X", byte), out += code;
     }
     return out;
 }
@@ -62,7 +79,7 @@ std::string article(const Json& row) {
     bool warned = false;
     std::string inside;
     if (row.contains("picture")) {
-        const std::string picture = escaped(row["picture"].get<std::string>());
+        const std::string picture = linked(row["picture"].get<std::string>());
         inside += "<a href=\"" + picture + "\"><img loading=\"lazy\" src=\"" + picture + "\" alt=\"\"></a>";
     }
     inside += "<h2>" + escaped(row["name"].get<std::string>()) + "</h2>";

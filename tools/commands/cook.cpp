@@ -26,7 +26,7 @@ struct Options {
     std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit, size_label, measures, shape,
         stand, remake, picture;
     float triangle_mm = 20.0f, scale = 0.0f;
-    int jobs = 0, limit_s = 300;
+    int jobs = 0, limit_s = 0;  // 0: not told
     bool json = false, resume = false;
 };
 
@@ -166,7 +166,7 @@ void draw(const std::vector<Json>& reports, const std::string& path) {
     const Avatar avatar = default_wearer(context.get(), garments.front().get());
     stand(avatar.get(), kArmsOut_rad);
     vfit_cloth_desc cloth = vfit_cloth_desc_init();
-    cloth.flags = VFIT_CLOTH_SKIN;
+    cloth.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_ANY_FIT;  // it may be made for another body
     cloth.self_thickness_m = kOwnLayers_m;
     WornOutfit outfit(avatar.get(), std::move(garments), called, cloth);
     for (int frame = 0; frame < kFramesToRest; ++frame) outfit.step(kFrame_s);
@@ -212,7 +212,7 @@ void cook_all(const Options& options) {
         }
     };
     catalogue.jobs = options.jobs > 0 ? options.jobs : int(physical_cores());
-    catalogue.limit_s = double(options.limit_s);
+    if (options.limit_s > 0) catalogue.limit_s = double(options.limit_s);
     catalogue.resume = options.resume;
     const Json report = cook_catalogue(catalogue, [&](const Json& design) {
         if (options.json) return;
@@ -235,8 +235,8 @@ void cook_all(const Options& options) {
 
 void cook(const Options& options) {
     if (std::filesystem::is_directory(options.design)) return cook_all(options);
-    if (options.resume || options.jobs > 0)
-        throw WrongUsage("--jobs and --resume are of a folder of designs");
+    if (options.resume || options.jobs > 0 || options.limit_s > 0)
+        throw WrongUsage("--jobs, --limit and --resume are of a folder of designs");
     const std::vector<Json> reports = Cook(options).cook(options.design, options.out);
     if (!options.picture.empty()) draw(reports, options.picture);
     if (!options.json)
