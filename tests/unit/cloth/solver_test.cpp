@@ -224,5 +224,17 @@ TEST(ClothSolver, StrainIsZeroAtRestAndOnePercentWhenPulledByOnePercent) {
     EXPECT_EQ(cloth.stats().simulated_count, 16u);
 }
 
+TEST(ClothSolver, OfShortEdgesTheLargestStrainIsAFractionOfTwoCentimetres) {
+    const Sheet sheet(4, 4, 0.005f);
+    Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
+    std::vector<Vec3> pulled = sheet.positions;
+    for (Vec3& p : pulled) p *= 2.0f;
+    cloth.reset(pulled);
+    for (const float strain : cloth.strain()) EXPECT_NEAR(strain, 1.0f, 1e-3f);
+    // The longest, diagonals of 7 mm, are 7 mm too long.
+    EXPECT_NEAR(cloth.stats().strain_max, std::sqrt(2.0f) * 0.005f / 0.02f, 1e-3f);
+    EXPECT_NEAR(cloth.stats().strain_mean, 1.0f, 1e-3f);
+}
+
 }  // namespace
 }  // namespace vfit

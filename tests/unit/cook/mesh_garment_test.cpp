@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <random>
 #include <set>
 
@@ -510,6 +511,77 @@ TEST_F(MeshGarment, LargeTrianglesStayOneGarment) {
         EXPECT_EQ(made[0].openings_m.size(), 2u);
         EXPECT_EQ(made[0].garment.drawn.indices.size(), coarse.triangles().size());
     }
+}
+
+/// A tube with a strip between its legs, as of briefs: three openings.
+std::string briefs(const std::function<Vec3(const Vec3&)>& written) {
+    TubeMesh tube;
+    tube.top_m = 0.98f, tube.bottom_m = 0.86f, tube.rows = 6, tube.radius_m = 0.135f, tube.flare = 0.1f;
+    std::vector<Vec3> places = tube.positions();
+    std::string faces = obj_faces(tube.squares(), 4);
+    constexpr int kHalf = 3, kSteps = 14;
+    const auto at = [&](int column) {
+        return size_t(tube.rows * (tube.columns + 1) + (column + tube.columns) % tube.columns);
+    };
+    const size_t first = places.size();
+    for (int step = 1; step < kSteps; ++step)
+        for (int i = -kHalf; i <= kHalf; ++i) {
+            const float t = float(step) / float(kSteps);
+            Vec3 p = glm::mix(places[at(i)], places[at(tube.columns / 2 - i)], t);
+            p.y -= 0.25f * std::sin(kPi * t);
+            places.push_back(p);
+        }
+    const auto on_strip = [&](int step, int i) {
+        if (step == 0) return at(i) + 1;
+        if (step == kSteps) return at(tube.columns / 2 - i) + 1;
+        return first + size_t(step - 1) * (2 * kHalf + 1) + size_t(i + kHalf) + 1;
+    };
+    for (int step = 0; step < kSteps; ++step)
+        for (int i = -kHalf; i < kHalf; ++i)
+            faces += vfit::text("f ", on_strip(step, i), " ", on_strip(step + 1, i), " ",
+                                on_strip(step + 1, i + 1), " ", on_strip(step, i + 1), "\n");
+    std::string out;
+    for (const Vec3& p : places) {
+        const Vec3 q = written(p);
+        out += vfit::text("v ", q.x, " ", q.y, " ", q.z, "\n");
+    }
+    std::string plain;  // squares with uvs refer to none
+    for (size_t i = 0; i < faces.size(); ++i)
+        if (faces[i] == '/')
+            while (i + 1 < faces.size() && faces[i + 1] != ' ' && faces[i + 1] != '\n') ++i;
+        else
+            plain += faces[i];
+    return out + plain;
+}
+
+TEST_F(MeshGarment, IsTurnedToWhereItsFigureWoreIt) {
+    const CookedGarment upright = cook("briefs.obj", briefs([](const Vec3& p) { return p; }));
+    EXPECT_EQ(upright.report.hangs_on, HangsOn::waist);
+    EXPECT_EQ(upright.openings_m.size(), 3u);
+    // With Z up arms could go through its legs where it lies; its figure stands beside it.
+    const CookedGarment turned = cook("z_up.obj", briefs([](const Vec3& p) { return Vec3(p.x, -p.z, p.y); }));
+    EXPECT_TRUE(has_note(turned.notes, "Z up"));
+    EXPECT_EQ(turned.report.hangs_on, HangsOn::waist);
+    EXPECT_EQ(turned.round, upright.round);
+}
+
+TEST_F(MeshGarment, ATubeThatIsClosedAtOneEndIsAHatOrABag) {
+    TubeMesh tube;
+    const auto closed = [&](float lowered_m) {
+        TubeMesh low = tube;
+        low.top_m -= lowered_m, low.bottom_m -= lowered_m;
+        const size_t n = low.positions().size();
+        std::string lid = vfit::text("v 0 ", low.top_m, " 0\n");
+        for (int i = 0; i < low.columns; ++i) lid += vfit::text("f ", i + 1, " ", i + 2, " ", n + 1, "\n");
+        return obj_of(low) + lid;
+    };
+    CookRequest request = request_of(write("bag.obj", closed(0.7f)));
+    expect_not_cooked(request, {"closed by cloth at one end", "--kind"});
+    request.kind = "skirt";
+    EXPECT_EQ(cook_file(*model, fabrics, request, *jobs).front().report.hangs_on, HangsOn::waist);
+    // Where a figure wears its skirt, it's one.
+    const CookedGarment skirt = cook("skirt.obj", closed(0.0f));
+    EXPECT_TRUE(has_note(skirt.notes, "1 ends that were closed by cloth were cut open"));
 }
 
 TEST_F(MeshGarment, ASuitBecomesLayers) {
