@@ -436,6 +436,7 @@ private:
         g.on_arm = sleeves(surface, draped.positions, body_);
         g.parts = std::move(surface.parts);
         if (!options_.size_label.empty()) g.sizes.push_back({options_.size_label, {}, {}});
+        check_near(draped.positions);
         turn_outside_out(g, skin);
         validate_garment(g, fabrics_);
         out.round = goes_round(g.mesh.positions, g.mesh.indices, body_);
@@ -495,6 +496,16 @@ private:
             if (float(lies[side]) < kStill * float(lay[side]) || lies[0] + lies[1] == 0)
                 fail(VFIT_ERROR_DATA, "the garment slides off the ", side ? "left" : "right",
                      " shoulder of this body: nearly nothing of it lies there when it has fallen");
+    }
+
+    /// What can't be where it was put on is thrown off.
+    static void check_near(const std::vector<Vec3>& places) {
+        constexpr float kThrown_m = 5.0f;
+        for (const Vec3& p : places)
+            if (!(glm::length(p) < kThrown_m))
+                fail(VFIT_ERROR_DATA,
+                     "the garment comes off: as it fell it was thrown off the body, for which it is too "
+                     "small");
     }
 
     /// What is stretched to rags, or lies about the feet, was not made for a body as it was put on.

@@ -12,6 +12,7 @@
 #include "body/mesh.h"
 #include "cook/cook_file.h"
 #include "cook/garment_writer.h"
+#include "cook/model/alignment.h"
 #include "cook/model/gltf.h"
 #include "cook/model/obj.h"
 #include "cook/model/surface.h"
@@ -554,15 +555,42 @@ std::string briefs(const std::function<Vec3(const Vec3&)>& written) {
     return out + plain;
 }
 
-TEST_F(MeshGarment, IsTurnedToWhereItsFigureWoreIt) {
+TEST_F(MeshGarment, BriefsAreTurnedUpright) {
     const CookedGarment upright = cook("briefs.obj", briefs([](const Vec3& p) { return p; }));
     EXPECT_EQ(upright.report.hangs_on, HangsOn::waist);
     EXPECT_EQ(upright.openings_m.size(), 3u);
-    // With Z up arms could go through its legs where it lies; its figure stands beside it.
     const CookedGarment turned = cook("z_up.obj", briefs([](const Vec3& p) { return Vec3(p.x, -p.z, p.y); }));
     EXPECT_TRUE(has_note(turned.notes, "Z up"));
     EXPECT_EQ(turned.report.hangs_on, HangsOn::waist);
     EXPECT_EQ(turned.round, upright.round);
+}
+
+TEST_F(MeshGarment, OfTwoWaysThatOneIsTakenInWhichItsFigureWoreIt) {
+    // A tube with a large hole before and behind: a body gets through it either way.
+    TubeMesh tube;
+    tube.radius_m = 0.21f, tube.flare = 0.0f, tube.top_m = 1.1f, tube.bottom_m = 0.7f;
+    std::vector<uint32_t> squares;
+    const std::vector<uint32_t> all = tube.squares();
+    const std::vector<Vec3> places = tube.positions();
+    for (size_t i = 0; i < all.size(); i += 4) {
+        const Vec3 middle =
+            0.25f * (places[all[i]] + places[all[i + 1]] + places[all[i + 2]] + places[all[i + 3]]);
+        if (std::abs(middle.y - 0.9f) > 0.17f || std::abs(middle.x) > 0.19f)
+            squares.insert(squares.end(), &all[i], &all[i] + 4);
+    }
+    const CookBody body(*model, VFIT_SEX_FEMALE, {});
+    const auto turn_of = [&](const std::function<Vec3(const Vec3&)>& written) {
+        std::vector<Vec3> moved = places;
+        for (Vec3& p : moved) p = written(p);
+        const Model mesh = read_obj(obj_vertices(moved, tube.uvs()) + obj_faces(squares, 4), Beside());
+        return align(make_pieces(make_soup(mesh, 1.0f)), body, {}).turn;
+    };
+    EXPECT_EQ(turn_of([](const Vec3& p) { return p; }), Mat3(1.0f));
+    // About a figure that is written with Z up, it lies a metre beside the one that stands.
+    EXPECT_NE(turn_of([](const Vec3& p) { return Vec3(p.x, -p.z, p.y); }), Mat3(1.0f));
+    // By itself, it is as it was written.
+    EXPECT_EQ(turn_of([](const Vec3& p) { return Vec3(p.x, -p.z, p.y) + Vec3(2.0f, 3.0f, 4.0f); }),
+              Mat3(1.0f));
 }
 
 TEST_F(MeshGarment, ATubeThatIsClosedAtOneEndIsAHatOrABag) {
