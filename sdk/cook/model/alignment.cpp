@@ -439,14 +439,46 @@ std::vector<Turn> turns() {
             {"it was written with X down", columns({0, -1, 0}, {0, 0, 1}, {-1, 0, 0})}};
 }
 
+/// Garments are broader than deep: the way about the vertical in which one that stands obliquely is so.
+std::optional<Turn> from_oblique(const Pieces& pieces) {
+    constexpr float kOblique_rad = 0.35f, kBroader = 1.3f;  // of deviations
+    Vec2 middle(0.0f);
+    float area = 0.0f;
+    const auto for_all = [&](const auto& add) {
+        for (const Piece& piece : pieces.list)
+            for (const ModelTriangle& t : piece.triangles) {
+                const Vec3 p =
+                    (pieces.places[t.vertex[0]] + pieces.places[t.vertex[1]] + pieces.places[t.vertex[2]]) /
+                    3.0f;
+                add(area_of(pieces.places, t), Vec2(p.x, p.z));
+            }
+    };
+    for_all([&](float a, const Vec2& p) { middle += a * p, area += a; });
+    if (!(area > 0.0f)) return std::nullopt;
+    middle /= area;
+    float xx = 0.0f, xz = 0.0f, zz = 0.0f;
+    for_all([&](float a, const Vec2& p) {
+        const Vec2 off = p - middle;
+        xx += a * off.x * off.x, xz += a * off.x * off.y, zz += a * off.y * off.y;
+    });
+    const float angle = 0.5f * std::atan2(2.0f * xz, xx - zz);  // of the longer axis, from X to Z
+    const float mean = 0.5f * (xx + zz), half = std::hypot(0.5f * (xx - zz), xz);
+    if (std::abs(angle) < kOblique_rad || mean + half < kBroader * kBroader * (mean - half))
+        return std::nullopt;
+    const float c = std::cos(angle), s = std::sin(angle);
+    return Turn{"it stood obliquely", Mat3(Vec3(c, 0, -s), Vec3(0, 1, 0), Vec3(s, 0, c))};
+}
+
 class Aligner {
 public:
     Aligner(const Pieces& pieces, const CookBody& body, const AlignmentOptions& options)
-        : pieces_(pieces), body_(body), options_(options), probe_(body) {}
+        : pieces_(pieces), body_(body), options_(options), probe_(body), turns_(turns()) {
+        if (const auto about_vertical = from_oblique(pieces))
+            turns_.insert(turns_.begin() + 1, *about_vertical);
+    }
 
     Alignment run() {
-        const std::vector<Turn> all = turns();
-        for (const Turn& turn : all) {
+        for (const Turn& turn : turns_) {
             tried_.clear();
             if (options_.size_known || units().empty()) try_out(1.0f, turn, nullptr);
             for (const Unit& unit : units()) try_out(unit.metres / pieces_.unit_m, turn, &unit);
@@ -525,7 +557,7 @@ private:
                                        way.alignment.stance);
             if (is_first) tried_.emplace_back(scale, way.found);
             way.turn = 0;
-            for (const Turn& known : turns()) {
+            for (const Turn& known : turns_) {
                 if (known.matrix == turn.matrix) break;
                 ++way.turn;
             }
@@ -637,6 +669,7 @@ private:
     const CookBody& body_;
     const AlignmentOptions options_;
     SkeletonProbe probe_;
+    std::vector<Turn> turns_;
     std::vector<std::pair<float, SkeletonProbe::Found>> tried_;  // of a turn, with their scales
     std::optional<Way> best_;
 };

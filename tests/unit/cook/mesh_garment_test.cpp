@@ -593,6 +593,28 @@ TEST_F(MeshGarment, OfTwoWaysThatOneIsTakenInWhichItsFigureWoreIt) {
               Mat3(1.0f));
 }
 
+TEST_F(MeshGarment, WhatStandsObliquelyIsTurned) {
+    const Garment shirt =
+        cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/shirt_men.json"), *jobs)
+            .front()
+            .garment;
+    const CookBody body(*model, VFIT_SEX_MALE, {});
+    for (const float angle : {0.0f, 0.9f, -0.6f}) {
+        const float c = std::cos(angle), s = std::sin(angle);
+        const Mat3 oblique(Vec3(c, 0, -s), Vec3(0, 1, 0), Vec3(s, 0, c));
+        std::vector<Vec3> places = shirt.mesh.positions;
+        for (Vec3& p : places) p = oblique * p;
+        const Model mesh = read_obj(
+            obj_vertices(places, std::vector<Vec2>(places.size())) + obj_faces(shirt.mesh.indices, 3),
+            Beside());
+        const Alignment alignment = align(make_pieces(make_soup(mesh, 1.0f)), body, {});
+        EXPECT_EQ(has_note(alignment.notes, "it stood obliquely, and was turned"), angle != 0.0f);
+        constexpr float kNearly = 0.1f;  // its sleeves hang a little forward
+        const Vec3 across = alignment.turn * oblique * Vec3(1, 0, 0);
+        EXPECT_LT(glm::length(across - Vec3(1, 0, 0)), kNearly) << angle;
+    }
+}
+
 TEST_F(MeshGarment, ATubeThatIsClosedAtOneEndIsAHatOrABag) {
     TubeMesh tube;
     const auto closed = [&](float lowered_m) {
