@@ -94,6 +94,13 @@ void WornOutfit::step(float seconds) {
     look_at_strain();
 }
 
+void WornOutfit::settle(int frames) {
+    constexpr float kFrame_s = 1.0f / 60.0f;
+    for (int i = 0; i < frames; ++i) step(kFrame_s);
+    forget_worst();
+    step(kFrame_s);
+}
+
 void WornOutfit::look_at_strain() {
     for (const Layer& layer : layers_) {
         vfit_cloth_stats stats = vfit_cloth_stats_init();

@@ -17,6 +17,8 @@ public:
 
 /// Cloth whose longest edge exceeds twice its rest length has torn: a picture of it shows no fit.
 constexpr float kMaxPlausibleStrain = 1.0f;
+/// Of 1/60 s, of garments that are measured or drawn at rest: with few, cloth sags.
+constexpr uint32_t kSubstepsAtRest = 32;
 
 /// Between a garment's own layers: then they do not cross, and its edges meet the skin's.
 constexpr float kOwnLayers_m = 0.004f;
@@ -45,6 +47,8 @@ public:
     /// Puts everything on again, from the innermost layer outwards.
     void reset();
     void step(float seconds);
+    /// So many steps of 1/60 s; then worst() is of how it lies, not of how it came there.
+    void settle(int frames = 90);
 
     /// The largest strain of any edge since the last reset or forget_worst(): 1 is twice the rest length.
     struct Worst {

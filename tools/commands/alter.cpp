@@ -19,16 +19,12 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr PortraitStyle kFine{420, 640, 3}, kDraft{280, 420, 1};
-constexpr float kFrame_s = 1.0f / 60.0f;
-constexpr int kFramesToRest = 90;
-constexpr uint32_t kSubsteps = 32;   // of 1/60 s: with few, cloth sags
 constexpr float kWorthIt_m = 0.01f;  // of a girth: no tailor moves a seam for less
 constexpr float kSeams_m = 0.03f;    // of a girth: the cloth that seams have to be let out
 constexpr float kSame_m = 0.002f;
 constexpr int kRounds = 5;
-// Of stature: mean heights of chest, natural waist and buttocks of ANSUR II. How wide the cloth is is
-// measured where the avatar has these girths; here the panels are the most wider.
+// Of stature: mean heights of chest, natural waist and buttocks of ANSUR II. Panels become wider or narrower
+// there; the girths themselves are measured by vfit_cloth_fit.
 const std::map<std::string, float> kLevels = {
     {"chest_girth_m", 0.72f}, {"waist_girth_m", 0.63f}, {"hip_girth_m", 0.51f}};
 
@@ -49,10 +45,10 @@ public:
         vfit_cloth_desc cloth = vfit_cloth_desc_init();
         cloth.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_PRESSURE | VFIT_CLOTH_ANY_FIT;
         cloth.self_thickness_m = kOwnLayers_m;
-        cloth.substeps = kSubsteps;
+        cloth.substeps = kSubstepsAtRest;
         cloth.size_label = label.c_str();
         outfit_.emplace(avatar, std::move(garments), std::vector<std::string>{name}, cloth);
-        for (int i = 0; i < kFramesToRest; ++i) outfit_->step(kFrame_s);
+        outfit_->settle();
     }
 
     std::map<std::string, vfit_fit_zone> zones() const {
@@ -271,7 +267,7 @@ void alter(const Options& options) {
     for (const Json& change : ticket) text += "  " + line_of(change) + "\n";
     if (ticket.empty()) text += "  nothing to change\n";
     replace_text(in_out("ticket.txt"), text);
-    const PortraitStyle style = options.draft ? kDraft : kFine;
+    const PortraitStyle style = options.draft ? kDraftPortrait : kFinePortrait;
     std::vector<std::vector<SheetItem>> rows(2);
     std::vector<const Fitted*> both{&before};
     if (after) both.push_back(&*after);

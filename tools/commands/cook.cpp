@@ -154,8 +154,8 @@ std::string line_of(const Json& r) {
 /// As they are worn by the default body, from the front and from behind.
 void draw(const std::vector<Json>& reports, const std::string& path) {
     constexpr PortraitStyle kStyle{280, 420, 2};
-    constexpr float kArmsOut_rad = 0.1f, kFrame_s = 1.0f / 60.0f;
-    constexpr int kFramesToRest = 40;
+    constexpr float kLegsOut_rad = 0.1f;
+    constexpr int kFrames = 40;  // nearly to rest
     const Context context = open_context();
     std::vector<Garment> garments;
     std::vector<std::string> called;
@@ -164,12 +164,12 @@ void draw(const std::vector<Json>& reports, const std::string& path) {
         garments.push_back(open_garment(context.get(), std::filesystem::absolute(called.back()).string()));
     }
     const Avatar avatar = default_wearer(context.get(), garments.front().get());
-    stand(avatar.get(), kArmsOut_rad);
+    stand(avatar.get(), kLegsOut_rad);
     vfit_cloth_desc cloth = vfit_cloth_desc_init();
     cloth.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_ANY_FIT;  // it may be made for another body
     cloth.self_thickness_m = kOwnLayers_m;
     WornOutfit outfit(avatar.get(), std::move(garments), called, cloth);
-    for (int frame = 0; frame < kFramesToRest; ++frame) outfit.step(kFrame_s);
+    outfit.settle(kFrames);
     const auto meshes = dressed_meshes(avatar.get(), drawn(outfit));
     std::vector<SheetItem> row;
     for (const float yaw : {0.35f, 3.5f})

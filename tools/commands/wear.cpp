@@ -16,10 +16,6 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr PortraitStyle kFine{420, 640, 3}, kDraft{280, 420, 1};
-constexpr float kFrame_s = 1.0f / 60.0f;
-constexpr int kFramesToRest = 90;
-constexpr uint32_t kSubsteps = 32;      // of 1/60 s: with few, cloth sags
 constexpr size_t kLongestCaption = 36;  // characters that fit below a picture
 
 struct Options {
@@ -45,16 +41,12 @@ public:
         vfit_cloth_desc cloth = vfit_cloth_desc_init();
         cloth.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_PRESSURE;
         cloth.self_thickness_m = kOwnLayers_m;
-        cloth.substeps = kSubsteps;
+        cloth.substeps = kSubstepsAtRest;
         cloth.size_label = size.empty() ? nullptr : size.c_str();
         outfit_.emplace(context, avatar_.get(), names, cloth);
     }
 
-    void settle() {
-        for (int i = 0; i < kFramesToRest; ++i) outfit_->step(kFrame_s);
-        outfit_->forget_worst();  // drawn is how it lies, not how it came there
-        outfit_->step(kFrame_s);
-    }
+    void settle() { outfit_->settle(); }
 
     std::string warning() const { return outfit_->warning(); }
 
@@ -104,7 +96,7 @@ void print_fit(const Json& fit) {
 void wear(const Options& options) {
     const Context context = open_context();
     create_folder(options.out);
-    const PortraitStyle style = options.draft ? kDraft : kFine;
+    const PortraitStyle style = options.draft ? kDraftPortrait : kFinePortrait;
     Json report = Json::array();
     std::vector<std::vector<SheetItem>> rows(4);
     std::string warnings;

@@ -33,6 +33,7 @@ struct PortraitStyle {
     int width, height;  // pixels
     int samples;        // a side of a pixel
 };
+constexpr PortraitStyle kFinePortrait{420, 640, 3}, kDraftPortrait{280, 420, 1};
 
 /// A portrait of what stands about `centre` on the floor, seen from `yaw` (0: from the front).
 Canvas draw_dressed(const std::vector<RenderMesh>& meshes, const glm::vec3& centre, float yaw,
