@@ -75,6 +75,8 @@ public:
     /// Of its skin; desc.limbs_clear opens them in what skin() writes.
     const Creases& creases() const { return creases_; }
 
+    /// The pose in which the skin is as rest() has it.
+    Pose rest_pose() const { return rig_.rest_pose(); }
     /// Proportions that motion is bound to: forward_kinematics(skeleton(), pose) gives the places of the
     /// posed avatar's bones.
     const Skeleton& skeleton() const { return rig_.skeleton(); }

@@ -197,7 +197,7 @@ private:
             const std::string what = text("mesh \"", mesh.name, "\", part ", p);
             const tinygltf::Primitive& primitive = mesh.primitives[p];
             if (!primitive.targets.empty()) morphs_ = true;
-            add_primitive(primitive, mesh.name, what, node, n.skin, carrier);
+            add_primitive(primitive, int(p), mesh.name, what, node, n.skin, carrier);
         }
         if (morphs_ && !morphs_said_) {
             out_.notes.push_back("morph targets are ignored");
@@ -220,8 +220,8 @@ private:
                                from_file_ * worlds_[size_t(skin.joints[j])] * binds[j]});
     }
 
-    void add_primitive(const tinygltf::Primitive& p, const std::string& mesh, const std::string& what,
-                       int node, int skin, int carrier) {
+    void add_primitive(const tinygltf::Primitive& p, int number, const std::string& mesh,
+                       const std::string& what, int node, int skin, int carrier) {
         const int mode = p.mode < 0 ? TINYGLTF_MODE_TRIANGLES : p.mode;
         if (mode == TINYGLTF_MODE_POINTS || mode == TINYGLTF_MODE_LINE || mode == TINYGLTF_MODE_LINE_LOOP ||
             mode == TINYGLTF_MODE_LINE_STRIP)
@@ -243,6 +243,7 @@ private:
 
         CharacterPart part;
         part.mesh = mesh;
+        part.node = node, part.primitive = number;
         part.material_index = p.material;
         if (p.material >= 0 && size_t(p.material) < document_.model().materials.size())
             part.material = document_.model().materials[size_t(p.material)].name;
@@ -540,6 +541,7 @@ Character load_character(const GltfDocument& document, const std::string& own_ma
     for (Vec3& p : rest.positions) p += shift;
     for (AvatarBone& bone : rig.bones) bone.rest_head += shift, bone.rest_tail += shift;
     out.from_file = glm::translate(Mat4(1.0f), shift) * out.from_file;
+    out.node_worlds = worlds;
     out.source.bones = std::move(rig.bones);
     out.source.is_body = false;
     merge_twist_bones(out.source);

@@ -17,7 +17,8 @@ enum class CharacterKind { gltf, vrm0, vrm1 };
 /// Triangles of one material: indices first_index to first_index + index_count of the rest mesh.
 struct CharacterPart {
     std::string mesh, material;
-    int material_index = -1;  // of the file
+    int material_index = -1;        // of the file
+    int node = -1, primitive = -1;  // that show it: a node of the file, and which of its mesh's parts
     uint32_t first_index = 0, index_count = 0;
 };
 
@@ -28,6 +29,7 @@ struct Character {
     std::vector<CharacterPart> parts;
     // The avatar faces +Z, its soles on y = 0 over the origin: ours = M * the file's world.
     Mat4 from_file{1.0f};
+    std::vector<Mat4> node_worlds;   // of the file's nodes in the posture of `source`, in the file's world
     std::vector<std::string> notes;  // what was left out
 };
 

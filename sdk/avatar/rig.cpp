@@ -225,6 +225,16 @@ void AvatarRig::build_t_pose(float floor_y) {
     skeleton_.offset[VFIT_BONE_HIPS] = Vec3(0, skeleton_.ankle_height, 0) - hips_to_ankles;
 }
 
+Pose AvatarRig::rest_pose() const {
+    Pose pose;
+    for (int b = 0; b < kBoneCount; ++b) {
+        const Quat above = bone_parent(b) < 0 ? kIdentity : t_pose_[size_t(bone_parent(b))];
+        pose.rotation[size_t(b)] = glm::normalize(above * glm::conjugate(t_pose_[size_t(b)]));
+    }
+    pose.hips_position = rest_head(VFIT_BONE_HIPS);
+    return pose;
+}
+
 void AvatarRig::pose(const Pose& pose, PosedSkeleton& posed, std::span<Mat4> matrices) const {
     const Pose unit = checked(pose);
     posed = forward_kinematics(skeleton_, unit);

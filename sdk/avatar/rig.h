@@ -63,6 +63,8 @@ public:
     /// bone there (world = M * rest). A pose with a number that is not finite or a rotation of no length is
     /// refused with VFIT_ERROR_DATA and changes nothing. Does not allocate.
     void pose(const Pose& pose, PosedSkeleton& posed, std::span<Mat4> matrices) const;
+    /// The pose that leaves the rest skin where it is, to half a degree: a shank takes the twist of its foot.
+    Pose rest_pose() const;
 
 private:
     void map_humanoid_bones();

@@ -46,6 +46,13 @@ Pose lively_pose() {
     return pose;
 }
 
+TEST(AvatarRig, TheRestPoseLeavesTheSkinWhereItIs) {
+    const AvatarRig rig(synthetic_rig(), 0.0f, 1);
+    const Posed posed = run(rig, rig.rest_pose());
+    for (const Mat4& m : posed.matrices)
+        for (int c = 0; c < 4; ++c) EXPECT_LT(glm::distance(m[c], Mat4(1.0f)[c]), 0.005f);
+}
+
 TEST(AvatarRig, IdentityPoseIsATPose) {
     const AvatarRig rig(synthetic_rig(), 0.0f, 1);
     Pose pose;
