@@ -4,13 +4,11 @@
 #include <filesystem>
 #include <iostream>
 
-#include "client/bvh_file.h"
-#include "client/bvh_joints.h"
 #include "client/files.h"
-#include "client/joint_file.h"
 #include "client/missing_bones.h"
 #include "client/output.h"
 #include "client/people.h"
+#include "client/played_motion.h"
 #include "client/progress.h"
 #include "commands/commands.h"
 #include "export/character.h"
@@ -83,70 +81,22 @@ void print(const Json& report) {
                   << part["material"].get<std::string>() << ", " << part["triangles"] << " triangles\n";
 }
 
-/// The motion of a person as key frames of the character.
-class Mover {
-public:
-    Mover(vfit_context context, vfit_avatar avatar, CharacterAnimation& animation)
-        : avatar_(avatar), animation_(animation) {
-        check(vfit_motion_create(context, nullptr, motion_.out()));
-        check(vfit_motion_bind(motion_.get(), avatar));
-    }
-
-    /// step(motion) steps the stage and tells whether the person was there.
-    template <typename Step>
-    void move(int64_t now_ns, Step&& step) {
-        if (check(step(motion_.get())) == VFIT_NOT_READY) return;
-        if (start_ns_ < 0) start_ns_ = now_ns;
-        vfit_pose pose = vfit_pose_init();
-        const auto bones = bones_of(motion_.get(), pose);
-        set_pose(avatar_, pose, bones);
-        animation_.add_key(float(double(now_ns - start_ns_) * 1e-9));
-    }
-
-private:
-    vfit_avatar avatar_;
-    CharacterAnimation& animation_;
-    Motion motion_;
-    int64_t start_ns_ = -1;
-};
-
-void move_by_rows(vfit_context context, const Options& options, Mover& mover) {
-    const std::vector<JointRow> rows = is_bvh_file(options.motion)
-                                           ? read_bvh_joints(context, options.motion, BvhOptions())
-                                           : read_joint_file(options.motion);
-    Progress progress("frames", options.json);
-    uint32_t taken = 0;
-    for (const JointRow& row : rows) {
-        if (options.frames != 0 && taken >= options.frames) break;
-        mover.move(row.time_ns, [&](vfit_motion motion) { return step_row(motion, row); });
-        progress.at(++taken, options.frames);
-    }
-}
-
-void move_by_source(vfit_context context, const Options& options, Mover& mover) {
-    Source source(context, options.motion);
-    const Tracker tracker = open_tracker(context, TrackOptions{});
-    Progress progress("frames", options.json);
-    while (options.frames == 0 || source.taken() < options.frames) {
-        const auto frame = source.next();
-        if (!frame) break;
-        Frame tracked;
-        check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        const int64_t now_ns = view_of(tracked.get(), VFIT_STREAM_DEPTH).time_ns;
-        mover.move(now_ns, [&](vfit_motion motion) {
-            return vfit_motion_step(motion, tracked.get(), active_body(tracked.get()), now_ns);
-        });
-        progress.at(source.taken(), options.frames);
-    }
-}
-
 /// The source's person moves the character; each frame a key.
 void move(vfit_context context, vfit_avatar avatar, const Options& options, CharacterAnimation& animation) {
-    Mover mover(context, avatar, animation);
-    if (is_bvh_file(options.motion) || is_joint_file(options.motion))
-        move_by_rows(context, options, mover);
-    else
-        move_by_source(context, options, mover);
+    Motion motion;
+    check(vfit_motion_create(context, nullptr, motion.out()));
+    check(vfit_motion_bind(motion.get(), avatar));
+    Progress progress("frames", options.json);
+    int64_t start_ns = -1;
+    const auto add_key = [&](int64_t now_ns) {
+        if (start_ns < 0) start_ns = now_ns;
+        vfit_pose pose = vfit_pose_init();
+        const auto bones = bones_of(motion.get(), pose);
+        set_pose(avatar, pose, bones);
+        animation.add_key(float(double(now_ns - start_ns) * 1e-9));
+    };
+    play_motion(context, motion.get(), options.motion, options.frames, add_key,
+                [&](uint32_t taken) { progress.at(taken, options.frames); });
     if (animation.key_count() == 0) throw Failure(options.motion + ": no person was seen");
 }
 

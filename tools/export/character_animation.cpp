@@ -1,12 +1,11 @@
 #include "export/character_animation.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "client/files.h"
 #include "export/compressed_gltf.h"
-#include "export/glb_writer.h"
+#include "export/gltf_file.h"
 
 namespace vfit::tools {
 
@@ -15,31 +14,6 @@ namespace {
 using glm::mat4;
 using glm::quat;
 using glm::vec3;
-
-bool keep_picture(tinygltf::Image* image, int, std::string*, std::string*, int, int,
-                  const unsigned char* bytes, int size, void*) {
-    image->image.assign(bytes, bytes + size);
-    image->as_is = true;
-    return true;
-}
-
-tinygltf::Model read_model(const std::string& path) {
-    const std::string bytes = with_stand_ins(read_text(path));
-    tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(keep_picture, nullptr);
-    tinygltf::Model model;
-    std::string error, warning;
-    const std::string folder = std::filesystem::path(path).parent_path().string();
-    const bool binary = bytes.compare(0, 4, "glTF") == 0;
-    const bool read = binary
-                          ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                                        reinterpret_cast<const unsigned char*>(bytes.data()),
-                                                        uint32_t(bytes.size()), folder)
-                          : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(),
-                                                       uint32_t(bytes.size()), folder);
-    if (!read) throw Failure(path + ": " + error);
-    return model;
-}
 
 struct Local {
     vec3 translation{0.0f}, scale{1.0f};
@@ -81,21 +55,6 @@ quat rotation_of(const mat4& m) {
     return glm::normalize(glm::quat_cast(axes));
 }
 
-/// Pictures and buffers that lay beside the file go into it: the new one may stand elsewhere.
-void take_in(GlbWriter& writer) {
-    tinygltf::Model& model = writer.model();
-    for (tinygltf::Image& image : model.images) {
-        if (image.bufferView >= 0 || image.image.empty()) continue;
-        constexpr unsigned char kPng[] = {0x89, 'P', 'N', 'G'};
-        const bool png = image.image.size() > sizeof kPng &&
-                         std::equal(std::begin(kPng), std::end(kPng), image.image.begin());
-        image.mimeType = png ? "image/png" : "image/jpeg";
-        image.bufferView = writer.add_view(image.image.data(), image.image.size(), 0);
-        image.uri.clear();
-    }
-    for (tinygltf::Buffer& buffer : model.buffers) buffer.uri.clear();
-}
-
 }  // namespace
 
 void CharacterAnimation::add_key(float time_s) {
@@ -111,7 +70,7 @@ void CharacterAnimation::write(const std::string& path) const {
     const mat4 to_file = glm::inverse(glm::make_mat4(info.from_file));
     const std::vector<vfit_rig_bone> rig = rig_of(avatar_);
 
-    GlbWriter writer(read_model(file_));
+    GlbWriter writer(read_gltf(file_));
     tinygltf::Model& model = writer.model();
     std::vector<Local> rest;
     for (tinygltf::Node& node : model.nodes) rest.push_back(local_of(node));
@@ -175,7 +134,7 @@ void CharacterAnimation::write(const std::string& path) const {
                         writer.add(translations[n], TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, 0));
     }
     model.animations = {animation};
-    take_in(writer);
+    take_in_files(writer);
     write_text(path, with_compressed_data(writer.bytes(path), read_text(file_)));
 }
 
