@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <queue>
 
 #include "body/mesh.h"
@@ -31,16 +32,30 @@ std::array<Vec3, kRays> hemisphere() {
     return rays;
 }
 
-bool is_enclosed(const MeshQuery& garment, const std::array<Vec3, kRays>& rays, const Vec3& p,
-                 const Vec3& normal) {
+/// The hemisphere's rays about a normal.
+Mat3 axes_about(const Vec3& normal) {
     const Vec3 side =
         glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
-    const Vec3 other = glm::cross(normal, side);
+    return Mat3(side, glm::cross(normal, side), normal);
+}
+
+/// skin: null, or it hides as well.
+bool is_enclosed(const MeshQuery& garment, const MeshQuery* skin, const std::array<Vec3, kRays>& rays,
+                 const Vec3& p, const Vec3& normal) {
+    constexpr float kOff_m = 1e-3f;
+    const Mat3 axes = axes_about(normal);
+    int by_garment = 0, by_skin = 0;
     for (const Vec3& ray : rays) {
-        const Vec3 outward = ray.x * side + ray.y * other + ray.z * normal;
-        if (outward.y > kSteepest && !garment.cast(p, outward, kFar_m)) return false;
+        const Vec3 outward = axes * ray;
+        if (outward.y <= kSteepest) continue;
+        if (garment.cast(p, outward, kFar_m))
+            ++by_garment;
+        else if (skin && skin->cast(p + kOff_m * normal, outward, kFar_m))
+            ++by_skin;
+        else
+            return false;
     }
-    return true;
+    return by_garment >= by_skin;  // a mouth is hidden by no garment
 }
 
 /// Along the mesh's edges from each vertex to the nearest that is seen; found as far as most_m.
@@ -74,17 +89,38 @@ std::vector<float> distances_to_seen(const Covered& c, const std::vector<uint8_t
 
 }  // namespace
 
-std::vector<uint8_t> hidden_triangles(const Covered& covered, float margin_m, Jobs& jobs) {
+std::vector<float> cover_of(const Covered& covered, Jobs& jobs) {
     const std::vector<Vec3> body(covered.body.begin(), covered.body.end());
     std::vector<Vec3> normals;
     compute_normals(body, {covered.body_indices.begin(), covered.body_indices.end()}, normals);
     const MeshQuery garment(covered.garment, covered.garment_indices);
     const std::array<Vec3, kRays> rays = hemisphere();
     const uint32_t count = uint32_t(body.size());
+    std::vector<float> cover(count);
+    parallel_for(jobs, (count + kChunk - 1) / kChunk, [&](uint32_t chunk) {
+        for (uint32_t v = chunk * kChunk; v < std::min(count, (chunk + 1) * kChunk); ++v) {
+            const Mat3 axes = axes_about(normals[v]);
+            int hits = 0;
+            for (const Vec3& ray : rays) hits += garment.cast(body[v], axes * ray, kFar_m).has_value();
+            cover[v] = float(hits) / float(kRays);
+        }
+    });
+    return cover;
+}
+
+std::vector<uint8_t> hidden_triangles(const Covered& covered, float margin_m, Jobs& jobs) {
+    const std::vector<Vec3> body(covered.body.begin(), covered.body.end());
+    std::vector<Vec3> normals;
+    compute_normals(body, {covered.body_indices.begin(), covered.body_indices.end()}, normals);
+    const MeshQuery garment(covered.garment, covered.garment_indices);
+    std::optional<MeshQuery> skin;
+    if (covered.skin_hides) skin.emplace(covered.body, covered.body_indices);
+    const std::array<Vec3, kRays> rays = hemisphere();
+    const uint32_t count = uint32_t(body.size());
     std::vector<uint8_t> enclosed(count);
     parallel_for(jobs, (count + kChunk - 1) / kChunk, [&](uint32_t chunk) {
         for (uint32_t v = chunk * kChunk; v < std::min(count, (chunk + 1) * kChunk); ++v)
-            enclosed[v] = is_enclosed(garment, rays, body[v], normals[v]);
+            enclosed[v] = is_enclosed(garment, skin ? &*skin : nullptr, rays, body[v], normals[v]);
     });
     const std::vector<float> to_seen = distances_to_seen(covered, enclosed, margin_m);
     std::vector<uint8_t> hidden(covered.body_indices.size() / 3);

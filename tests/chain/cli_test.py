@@ -1278,6 +1278,48 @@ class Contract(unittest.TestCase):
                 run("fit", VIRTUAL, "--garment", folder / "design.json", "--out", folder), "design.json"
             )
 
+    def test_a_character_wears_a_garment_for_good(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            for rig, suffix in (("vrm0", "vrm"), ("mixamo", "glb")):
+                file, worn = folder / f"body.{suffix}", folder / f"worn.{suffix}"
+                self.assertEqual(run("character", "--rig", rig, "--sex", "f", "--out", file).returncode, 0)
+                report = document(
+                    self, "refit", "vest", file, "--out", worn, "--picture", folder / "worn.png", "--json"
+                )
+                self.assertEqual(report["garments"][0]["skin_crossings"], 0)
+                self.assertEqual(report["garments"][0]["self_crossings"], 0)
+                self.assertGreater(report["hidden_triangles"], 500)
+                self.assertEqual(report["outside"], [])
+                self.assertGreater(min(picture(folder / "worn.png")[:2]), 200)
+                before, after = (document(self, "character", path, "--json") for path in (file, worn))
+                self.assertEqual(after["kind"], before["kind"])
+                self.assertEqual(after["bones"], before["bones"])
+                self.assertAlmostEqual(after["stature_m"], before["stature_m"], places=3)
+                triangles = {part["mesh"]: part["triangles"] for part in after["parts"]}
+                vest = len(json.loads((GARMENTS / "vest.json").read_text())["indices"]) // 3
+                self.assertEqual(triangles["vest"], vest)
+                self.assertEqual(
+                    triangles["body"], before["parts"][0]["triangles"] - report["hidden_triangles"]
+                )
+                moved = ("refit", worn, "--garments", "vest", "--motion", VIRTUAL, "--frames", 8, "--json")
+                judged = run_program(pathlib.Path(VFIT).with_name("vfit-bench"), *moved)
+                self.assertEqual(judged.returncode, 0, judged.stderr)
+                (motion,) = json.loads(judged.stdout)
+                self.assertGreater(motion["frames"], 4)
+                self.assertLess(motion["frames_crossing_not_by_hands"], motion["frames"] / 2)
+            # What is wrong is said, and nothing is written.
+            for arguments, words in (
+                (("vest", file, "--out", file), "own file"),
+                (("vest", file, "--out", folder / "x.glb", "--take-off", "cape"), '"body"'),
+                (("no_such_garment", file, "--out", folder / "x.glb"), "no_such_garment"),
+                (("vest", GARMENTS / "vest.json", "--out", folder / "x.glb"), "glTF"),
+            ):
+                failed = run("refit", *arguments)
+                self.assertNotEqual(failed.returncode, 0)
+                self.assertIn(words, failed.stderr)
+                self.assertFalse((folder / "x.glb").exists())
+
     def test_a_garment_is_altered_until_it_has_the_ease(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)

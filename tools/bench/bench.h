@@ -55,6 +55,7 @@ void add_motion(Command& app);
 void add_contact_features(Command& app);
 void add_garments(Command& app);
 void add_layers(Command& app);
+void add_refit_bench(Command& app);
 void add_bodies(Command& app);
 
 }  // namespace vfit::tools

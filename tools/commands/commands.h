@@ -18,7 +18,6 @@ void add_track(Command& app);
 void add_motion(Command& app);
 void add_fit(Command& app);
 void add_record(Command& app);
-void add_cook(Command& app);
 void add_alter(Command& app);
 void add_plot(Command& app);
 void add_character(Command& app);

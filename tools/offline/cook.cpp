@@ -8,13 +8,14 @@
 #include "client/files.h"
 #include "client/output.h"
 #include "client/shape_option.h"
-#include "commands/catalogue.h"
-#include "commands/commands.h"
 #include "cook/cook_file.h"
 #include "cook/garment_writer.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/platform.h"
+#include "offline/catalogue.h"
+#include "offline/data_beside.h"
+#include "offline/offline.h"
 #include "picture/contact_sheet.h"
 #include "picture/dressed_picture.h"
 
@@ -29,13 +30,6 @@ struct Options {
     int jobs = 0, limit_s = 0;  // 0: not told
     bool json = false, resume = false;
 };
-
-/// A file of data beside the program: of a build, or of an installation with its own name for lib.
-std::string data_beside(const std::string& name) {
-    const std::string prefix = library_folder() + "/../", file = "/vfit_data/" + name;
-    const std::string built = prefix + "lib" + file;
-    return std::filesystem::exists(built) ? built : prefix + VFIT_LIBDIR + file;
-}
 
 float unit_named(const std::string& name) {
     for (const auto& [known, metres] : {std::pair("m", 1.0f), std::pair("dm", 0.1f), std::pair("cm", 0.01f),

@@ -1,4 +1,4 @@
-#include "commands/catalogue.h"
+#include "offline/catalogue.h"
 
 #include <cctype>
 #include <cstdio>
