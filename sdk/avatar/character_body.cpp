@@ -314,7 +314,8 @@ private:
             const float own = glm::length(way), other = glm::length(wanted);
             const bool has_length = own > 0.01f && other > 0.01f;
             const float along = has_length ? other / own : 1.0f;
-            const float thick = thickness_about(model_joints_, b, places(), body_carried, {}),
+            const float thick = thickness_about(model_joints_, b, std::span(places()).first(count_),
+                                                body_carried, {}),
                         wide = thickness_about(joints_, b, out_.skin, carried, counts_);
             const float across = thick > 0.0f && wide > 0.0f ? std::clamp(wide / thick, 0.3f, 3.0f) : 1.0f;
             Mat3 linear(has_length ? across : (thick > 0.0f && wide > 0.0f ? across : 1.0f));

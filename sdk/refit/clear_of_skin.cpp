@@ -9,8 +9,8 @@ namespace vfit {
 
 namespace {
 
-/// Hands may be anywhere: cloth can only keep clear of skin that it hangs beside.
-float beside_m(BodyPart part) { return is_arm(part) ? 0.12f : 0.2f; }
+/// Hands may be anywhere, and arms press against the trunk: cloth can only keep clear of skin that it hangs beside.
+float beside_m(BodyPart cloth, BodyPart skin) { return !is_arm(skin) ? 0.2f : is_arm(cloth) ? 0.12f : 0.05f; }
 
 /// Legs pass each other, and arms the trunk: what one wears cannot go out of the way of the other.
 bool are_apart(BodyPart a, BodyPart b) {
@@ -42,7 +42,7 @@ ClearOfSkin::Seen ClearOfSkin::beside(const BoundCloth& cloth) const {
     for (size_t i = 0; i + 2 < seen_.corners.size(); i += 3) {
         const uint32_t* t = &seen_.corners[i];
         if (std::none_of(t, t + 3, [&](uint32_t v) {
-                return mesh.closest(body_.skin[v]).distance < beside_m(parts[v]);
+                return mesh.closest(body_.skin[v]).distance < beside_m(parts[v], parts[v]);
             }))
             continue;
         out.corners.insert(out.corners.end(), t, t + 3);
@@ -60,8 +60,9 @@ std::vector<ClearOfSkin::Crossing> ClearOfSkin::find(const BoundCloth& cloth, co
          crossed_triangles(MeshView{places, indices}, MeshView{stands_[stand].skin, seen.corners})) {
         const uint32_t vertex = seen.corners[3 * pair.second];
         const BodyPart part = character_.source.topology->parts[vertex];
-        if (are_apart(part, cloth.parts()[indices[3 * pair.first]])) continue;
-        if (glm::distance(cloth.positions()[indices[3 * pair.first]], body_.skin[vertex]) < beside_m(part))
+        const BodyPart worn_on = cloth.parts()[indices[3 * pair.first]];
+        if (are_apart(part, worn_on)) continue;
+        if (glm::distance(cloth.positions()[indices[3 * pair.first]], body_.skin[vertex]) < beside_m(worn_on, part))
             out.push_back({pair.first, vertex, seen.numbers[pair.second]});
     }
     // Cloth over cloth goes by the same bones: only where it lies.
@@ -140,8 +141,11 @@ void ClearOfSkin::clear(BoundCloth& cloth, std::span<const BoundCloth> below) co
         }
         stands = all;
         crossings = find_in(stands);
+        constexpr double kHelps = 0.8;
+        const bool helps = double(crossings.size()) < kHelps * double(least);
         if (crossings.size() < least) least = crossings.size(), best = cloth.state();
         if (crossings.empty()) return;
+        if (!helps) break;
         if (attempt + 1 < kTries) go_with(cloth, crossings);
     }
     cloth.restore(std::move(best));

@@ -37,6 +37,8 @@ std::vector<uint8_t> flags_of(const Character& character, const std::vector<std:
         if (!known)
             fail(VFIT_ERROR_ARGUMENT, "the character has no \"", name, "\"; its meshes (materials): ", names);
     }
+    if (std::all_of(flags.begin(), flags.end(), [](uint8_t off) { return off != 0; }))
+        fail(VFIT_ERROR_ARGUMENT, "nothing of the character is left that could wear a garment");
     return flags;
 }
 

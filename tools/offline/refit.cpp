@@ -31,6 +31,7 @@ struct Options {
 };
 
 vfit::Garment read_garment(const std::string& name, const FabricLibrary& fabrics) {
+    if (name.empty()) throw Failure("a garment has no name");
     const bool is_path = name.find('/') != std::string::npos || name.ends_with(".json");
     const std::string path = is_path ? name : data_beside("garments/" + name + ".json");
     if (!std::filesystem::exists(path)) throw Failure(name + ": neither a garment file nor one of vfit_data");
@@ -258,7 +259,8 @@ void add_refit(Command& app) {
         std::error_code none;
         if (std::filesystem::equivalent(o->character, o->out, none))
             throw WrongUsage("--out is the character's own file");
-        if (o->margin_cm < 0.0f) throw WrongUsage("--margin is below 0");
+        if (!(o->margin_cm >= 0.0f && o->margin_cm <= 100.0f))
+            throw WrongUsage("--margin is not in 0 to 100 cm");
         const Refit refit(*o);
         refit.write();
         if (!o->picture.empty()) refit.draw(o->picture);

@@ -101,24 +101,28 @@ TEST(Refit, TrousersBelowAShirt) {
               std::accumulate(shirt.hidden.begin(), shirt.hidden.end(), 0));
 }
 
-TEST(Refit, WhatIsTakenOffIsLeftOutWhole) {
+TEST(Refit, WhatCannotBeTakenOffIsNamed) {
     Character man = large_man();
     // The left half of the file is another material.
     CharacterPart rest = man.parts[0];
     const uint32_t half = rest.index_count / 6 * 3;
     man.parts[0].index_count = rest.first_index = half, rest.index_count -= half, rest.material = "cloak";
     man.parts.push_back(rest);
-    RefitRequest request;
-    request.taken_off = {"cape"};
     const auto alone = Jobs::own(0);
     const std::vector<Garment> vest = garments({"vest"});
-    try {
-        refit(man, vest, body_model(), fabrics(), request, *alone);
-        FAIL() << "a name that the character lacks";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), VFIT_ERROR_ARGUMENT);
-        EXPECT_NE(std::string(error.what()).find("\"body\" (cloak)"), std::string::npos) << error.what();
-    }
+    const auto expect_refused = [&](const char* name, const char* words) {
+        RefitRequest request;
+        request.taken_off = {name};
+        try {
+            refit(man, vest, body_model(), fabrics(), request, *alone);
+            FAIL() << name;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), VFIT_ERROR_ARGUMENT);
+            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+        }
+    };
+    expect_refused("cape", "\"body\" (cloak)");
+    expect_refused("body", "nothing of the character is left");
 }
 
 }  // namespace
