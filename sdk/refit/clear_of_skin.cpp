@@ -9,7 +9,8 @@ namespace vfit {
 
 namespace {
 
-/// Hands may be anywhere, and arms press against the trunk: cloth can only keep clear of skin that it hangs beside.
+/// Hands may be anywhere, and arms press against the trunk: cloth can only keep clear of skin that it hangs
+/// beside.
 float beside_m(BodyPart cloth, BodyPart skin) { return !is_arm(skin) ? 0.2f : is_arm(cloth) ? 0.12f : 0.05f; }
 
 /// Legs pass each other, and arms the trunk: what one wears cannot go out of the way of the other.
@@ -62,7 +63,8 @@ std::vector<ClearOfSkin::Crossing> ClearOfSkin::find(const BoundCloth& cloth, co
         const BodyPart part = character_.source.topology->parts[vertex];
         const BodyPart worn_on = cloth.parts()[indices[3 * pair.first]];
         if (are_apart(part, worn_on)) continue;
-        if (glm::distance(cloth.positions()[indices[3 * pair.first]], body_.skin[vertex]) < beside_m(worn_on, part))
+        if (glm::distance(cloth.positions()[indices[3 * pair.first]], body_.skin[vertex]) <
+            beside_m(worn_on, part))
             out.push_back({pair.first, vertex, seen.numbers[pair.second]});
     }
     // Cloth over cloth goes by the same bones: only where it lies.
@@ -102,13 +104,18 @@ void ClearOfSkin::push(BoundCloth& cloth, std::span<const Crossing> crossings,
 }
 
 void ClearOfSkin::go_with(BoundCloth& cloth, std::span<const Crossing> crossings) const {
+    const AvatarSource& character = character_.source;
     std::vector<BoundCloth::GoesWith> list;
-    for (const Crossing& crossing : crossings)
-        if (crossing.vertex != UINT32_MAX && body_.of_head[crossing.vertex] <= 0.5f)
-            for (size_t k = 0; k < 3; ++k)
-                list.push_back({cloth.indices()[3 * crossing.triangle + k],
-                                &character_.source.skin_bones[crossing.vertex],
-                                &character_.source.skin_weights[crossing.vertex]});
+    for (const Crossing& crossing : crossings) {
+        const uint32_t skin = crossing.vertex;
+        if (skin == UINT32_MAX || body_.of_head[skin] > 0.5f) continue;
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t vertex = cloth.indices()[3 * crossing.triangle + k];
+            // At the armpit, cloth of the trunk that went with the arm would stand off as that is raised.
+            if (is_arm(character.topology->parts[skin]) && !is_arm(cloth.parts()[vertex])) continue;
+            list.push_back({vertex, &character.skin_bones[skin], &character.skin_weights[skin]});
+        }
+    }
     if (!list.empty()) cloth.go_with(list);
 }
 
