@@ -53,22 +53,26 @@ std::vector<Pose> usual_poses(const Avatar& figure) {
         const float step = draw(kStep);  // of the left leg; the right one is behind
         // side: 1 left, -1 right; turns about Y and Z are mirrored.
         const auto limbs = [&](float side, int arm, int forearm, int hand, int thigh, int shank, int foot) {
-            r[size_t(arm)] = turned(-draw(kSwing), x) * turned(-side * draw(kLowered) / reach, z) *
-                             turned(draw(kArmTwist), x);
-            r[size_t(forearm)] = turned(-side * draw(kElbow), y);
-            r[size_t(hand)] = turned(draw(kHandTwist), x) * turned(-side * draw(kWristAside), y) *
-                              turned(-side * draw(kWristBend), z);
-            r[size_t(thigh)] = turned(-side * step, x) * turned(-side * draw(kInwards), z) *
-                               turned(side * draw(kLegTwist), y);
-            r[size_t(shank)] = turned(draw(kKnee), x);
-            r[size_t(foot)] = turned(-draw(kAnkle), x) * turned(draw(kFootAside), z);
+            // One by one: compilers may take the operands of a product in any order.
+            const float arm_twist = draw(kArmTwist), lowered = draw(kLowered), swing = draw(kSwing),
+                        elbow = draw(kElbow), bend = draw(kWristBend), aside = draw(kWristAside),
+                        hand_twist = draw(kHandTwist), leg_twist = draw(kLegTwist), inwards = draw(kInwards),
+                        knee = draw(kKnee), foot_aside = draw(kFootAside), ankle = draw(kAnkle);
+            r[size_t(arm)] = turned(-swing, x) * turned(-side * lowered / reach, z) * turned(arm_twist, x);
+            r[size_t(forearm)] = turned(-side * elbow, y);
+            r[size_t(hand)] = turned(hand_twist, x) * turned(-side * aside, y) * turned(-side * bend, z);
+            r[size_t(thigh)] =
+                turned(-side * step, x) * turned(-side * inwards, z) * turned(side * leg_twist, y);
+            r[size_t(shank)] = turned(knee, x);
+            r[size_t(foot)] = turned(-ankle, x) * turned(foot_aside, z);
         };
         limbs(1.0f, VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_LEFT_HAND,
               VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT);
         limbs(-1.0f, VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_RIGHT_HAND,
               VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT);
         r[VFIT_BONE_SPINE] = r[VFIT_BONE_CHEST] = turned(draw(kTrunkTwist), y);
-        r[VFIT_BONE_NECK] = turned(draw(kNod), x) * turned(draw(kTrunkTwist), y);
+        const float turn_of_head = draw(kTrunkTwist), nod = draw(kNod);
+        r[VFIT_BONE_NECK] = turned(nod, x) * turned(turn_of_head, y);
     }
     return poses;
 }
