@@ -1302,6 +1302,20 @@ class Contract(unittest.TestCase):
                 self.assertEqual(
                     triangles["body"], before["parts"][0]["triangles"] - report["hidden_triangles"]
                 )
+                if rig == "vrm0":  # its meshes stand in the file's world
+                    data = worn.read_bytes()
+                    (size,) = struct.unpack_from("<I", data, 12)
+                    gltf = json.loads(data[20 : 20 + size])
+                    low, high = {}, {}
+                    for mesh in gltf["meshes"]:
+                        place = gltf["accessors"][mesh["primitives"][0]["attributes"]["POSITION"]]
+                        low[mesh["name"]], high[mesh["name"]] = place["min"], place["max"]
+                    self.assertGreater(low["vest"][1], 0.4 * high["body"][1])
+                    self.assertLess(high["vest"][1], 0.95 * high["body"][1])
+                    for axis in (0, 2):
+                        middle = (low["vest"][axis] + high["vest"][axis]) / 2
+                        self.assertAlmostEqual(middle, 0.0, delta=0.06)
+                        self.assertGreater(high["vest"][axis] - low["vest"][axis], 0.2)
                 moved = ("refit", worn, "--garments", "vest", "--motion", VIRTUAL, "--frames", 8, "--json")
                 judged = run_program(pathlib.Path(VFIT).with_name("vfit-bench"), *moved)
                 self.assertEqual(judged.returncode, 0, judged.stderr)
